@@ -11,7 +11,7 @@ use crate::forces::transmission::row;
 use crate::kinds::{biastype, disable, gaintype, joint, trntype};
 use crate::math::*;
 use crate::model::{Fields, Model};
-use crate::step::workspace::Scratch;
+use crate::step::workspace::StepScratch;
 use crate::step::{self, reset};
 
 /// The actuators whose range is computed.
@@ -113,7 +113,7 @@ impl RangeSearch {
 pub(crate) fn length_range(
     m: &mut Model,
     d: &mut Fields,
-    s: &mut Scratch,
+    s: &mut StepScratch,
     i: usize,
     search: &RangeSearch,
 ) -> Result<(), RangeError> {
@@ -149,7 +149,7 @@ pub(crate) fn length_range(
 fn simulate_pull(
     m: &Model,
     d: &mut Fields,
-    s: &mut Scratch,
+    s: &mut StepScratch,
     o: usize,
     sign: f64,
     search: &RangeSearch,

@@ -27,7 +27,7 @@ use crate::model::{Fields, Model, Warning, asleep};
 
 /// Scratch memory of the collision stage.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Scratch {
+pub struct CollisionScratch {
     /// Pairs of geoms to test.
     pub(crate) pairs: Pairs,
     /// Buffers for the contacts of one pair.
@@ -76,9 +76,9 @@ pub(crate) const MOST_CONTACTS: usize = 1 << 16;
 
 /// `contact`, `ncon`: tests the pairs of the plan in order.
 #[inline(never)]
-pub(crate) fn collide(m: &Model, d: &mut Fields, w: &mut Scratch) {
+pub(crate) fn collide(m: &Model, d: &mut Fields, w: &mut CollisionScratch) {
     d.contact.clear();
-    let Scratch { pairs: list, narrow: work } = w;
+    let CollisionScratch { pairs: list, narrow: work } = w;
     if let Some(sweep) = &mut list.sweep {
         let cost = sweep.run(m, d);
         d.meter.add(cost);

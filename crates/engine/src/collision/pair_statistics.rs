@@ -3,7 +3,7 @@
 use super::candidates::{Changes, candidate_pairs};
 use super::extent::Extents;
 use super::filter::{Pair, dynamic_pair, excluded, explicit_pairs, masks_admit, parent_and_child};
-use super::{Scratch, params, sweep};
+use super::{CollisionScratch, params, sweep};
 use crate::geometry::pair;
 use crate::model::{Fields, Model};
 use labspec_finding::order;
@@ -122,7 +122,7 @@ pub fn pair_methods(m: &Model, change: Changes) -> Vec<([i32; 2], usize, bool)> 
 
 /// The number of planned pairs whose bounding spheres are currently within reach of each other. Each of the other
 /// pairs costs one comparison.
-pub fn in_reach(m: &Model, d: &Fields, w: &Scratch) -> usize {
+pub fn in_reach(m: &Model, d: &Fields, w: &CollisionScratch) -> usize {
     if let Some(sweep) = &w.pairs.sweep {
         return sweep.near.len();
     }

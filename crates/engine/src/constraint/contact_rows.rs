@@ -1,6 +1,6 @@
 //! The rows of contacts: the normal direction, and for friction the edges of a pyramid or the axes of a cone.
 
-use super::Scratch;
+use super::ConstraintScratch;
 use super::cost::Cost;
 use super::impedance::{Acts, Kbi, kbi, kbi_friction};
 use super::jacobian::Jacobian;
@@ -27,9 +27,9 @@ pub(super) fn count(m: &Model, d: &Fields) -> usize {
 ///
 /// A contact that no degree of freedom opens or closes has no rows. There is one exception: with dense matrices, two
 /// geoms on the same moving body have rows of zeros, as in MuJoCo. The forces of these rows have no effect.
-pub(super) fn make(m: &Model, d: &mut Fields, w: &mut Scratch) {
+pub(super) fn make(m: &Model, d: &mut Fields, w: &mut ConstraintScratch) {
     let mut list = std::mem::take(&mut d.contact);
-    let Scratch { jac, columns, .. } = w;
+    let ConstraintScratch { jac, columns, .. } = w;
     for (id, c) in list.iter_mut().enumerate() {
         c.efc_address = None;
         if c.exclude != exclude::NO {

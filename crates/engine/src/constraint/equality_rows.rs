@@ -4,7 +4,7 @@
 //! ω₂) q₁). One joint or tendon follows a polynomial of another (MuJoCo's documentation, "Computation: Constraint
 //! model, Equality").
 
-use super::Scratch;
+use super::ConstraintScratch;
 use super::cost::Cost;
 use super::ends::{self, End};
 use super::impedance::{Acts, kbi};
@@ -24,8 +24,8 @@ pub(super) fn count(m: &Model, d: &Fields) -> usize {
 }
 
 /// Creates the rows of all active constraints, ordered by id.
-pub(super) fn make(m: &Model, d: &mut Fields, w: &mut Scratch) {
-    let Scratch { jac, columns, .. } = w;
+pub(super) fn make(m: &Model, d: &mut Fields, w: &mut ConstraintScratch) {
+    let ConstraintScratch { jac, columns, .. } = w;
     for e in 0..m.neq {
         if !d.eq_active[e] || asleep::equality(m, d, e) {
             continue;

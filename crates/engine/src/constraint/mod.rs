@@ -50,7 +50,7 @@ use jacobian::Jacobian;
 
 /// Scratch memory of the constraint stages, kept between stages and between steps.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Scratch {
+pub struct ConstraintScratch {
     /// Jacobian of the constraints.
     pub jac: Jacobian,
     /// Columns of one contact's Jacobian.
@@ -61,9 +61,9 @@ pub struct Scratch {
     column: Vec<f64>,
 }
 
-impl Scratch {
-    pub(crate) fn new(m: &Model) -> Scratch {
-        Scratch { columns: Columns::with_room(m.nv), ..Scratch::default() }
+impl ConstraintScratch {
+    pub(crate) fn new(m: &Model) -> ConstraintScratch {
+        ConstraintScratch { columns: Columns::with_room(m.nv), ..ConstraintScratch::default() }
     }
 }
 

@@ -7,7 +7,7 @@ use super::iterate::{IslandProgress, Iterate};
 use super::jacobian::{Block, Jacobian};
 use super::row_counts::by_rows;
 use super::search::{Point, minimize};
-use crate::dynamics::{Scratch as TreeScratch, mass, tree_algorithms};
+use crate::dynamics::{DynamicsScratch, mass, tree_algorithms};
 use crate::kinds::{disable, solver};
 use crate::math::{MINVAL, combine, dot, dot_slice, sum, zero};
 use crate::model::{Fields, Model};
@@ -29,7 +29,7 @@ pub(super) struct Problem<'a> {
     pub(super) m: &'a Model,
     pub(super) d: &'a mut Fields,
     pub(super) s: &'a mut Iterate,
-    pub(super) trees: &'a mut TreeScratch,
+    pub(super) trees: &'a mut DynamicsScratch,
     pub(super) jac: &'a Jacobian,
     pub(super) islands: &'a Islands,
     pub(super) island: usize,

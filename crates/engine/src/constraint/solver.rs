@@ -3,14 +3,14 @@
 //! min over a of ½ (a - a₀)ᵀ M (a - a₀) + Σ s(J a - aref), where a₀ is the unconstrained acceleration and s is the
 //! cost of the deviation from the reference acceleration (Todorov 2014).
 
-use super::Scratch;
+use super::ConstraintScratch;
 use super::cost::{Cost, clamp_unilateral};
 use super::island::Islands;
 use super::iterate::{IslandProgress, Iterate};
 use super::jacobian::{Block, Jacobian};
 use super::primal::{Problem, shape};
 use super::row_counts::by_rows;
-use crate::dynamics::{Scratch as TreeScratch, mass, tree_algorithms};
+use crate::dynamics::{DynamicsScratch, mass, tree_algorithms};
 use crate::kinds::{disable, solver};
 use crate::math::{copy, zero};
 use crate::model::plan::PlanFlag;
@@ -18,7 +18,7 @@ use crate::model::{Fields, Model};
 
 /// Computes `qacc`, `efc_force`, `qfrc_constraint` and `solver_niter` from `qacc_smooth` and the rows.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(crate) fn solve(m: &Model, d: &mut Fields, w: &mut Scratch, trees: &mut TreeScratch) {
+pub(crate) fn solve(m: &Model, d: &mut Fields, w: &mut ConstraintScratch, trees: &mut DynamicsScratch) {
     d.solver_niter = 0;
     d.nisland = 0;
     copy(&d.qacc_smooth, &mut d.qacc);
@@ -29,7 +29,7 @@ pub(crate) fn solve(m: &Model, d: &mut Fields, w: &mut Scratch, trees: &mut Tree
 }
 
 #[inline(never)] // so that steps without constraint rows do not execute its setup code
-fn solve_rows(m: &Model, d: &mut Fields, w: &mut Scratch, trees: &mut TreeScratch) {
+fn solve_rows(m: &Model, d: &mut Fields, w: &mut ConstraintScratch, trees: &mut DynamicsScratch) {
     let [_, columns, values] = w.jac.size();
     d.meter.add(8 * (columns + values) + 40 * d.nefc as u64);
     let dual = m.opt.solver == solver::PGS || m.opt.noslip_iterations > 0;
@@ -40,7 +40,7 @@ fn solve_rows(m: &Model, d: &mut Fields, w: &mut Scratch, trees: &mut TreeScratc
     if d.meter.over() {
         return;
     }
-    let Scratch { jac, islands, solver: s, .. } = w;
+    let ConstraintScratch { jac, islands, solver: s, .. } = w;
     d.nisland = islands.find(m, jac);
     s.resize(m.nv, d.nefc);
     if dual {
@@ -76,7 +76,7 @@ fn primal(
     m: &Model,
     d: &mut Fields,
     s: &mut Iterate,
-    trees: &mut TreeScratch,
+    trees: &mut DynamicsScratch,
     islands: &Islands,
     jac: &Jacobian,
 ) {
@@ -100,7 +100,7 @@ fn dual_start(
     m: &Model,
     d: &mut Fields,
     s: &mut Iterate,
-    trees: &mut TreeScratch,
+    trees: &mut DynamicsScratch,
     islands: &Islands,
     jac: &Jacobian,
 ) {
@@ -121,12 +121,12 @@ fn dual_start(
 }
 
 /// Computes `efc_force` and `qfrc_constraint` for the acceleration `qacc` (`mj_invConstraint`).
-pub(crate) fn inverse(m: &Model, d: &mut Fields, w: &mut Scratch, trees: &mut TreeScratch) {
+pub(crate) fn inverse(m: &Model, d: &mut Fields, w: &mut ConstraintScratch, trees: &mut DynamicsScratch) {
     d.qfrc_constraint.fill(0.0);
     if d.nefc == 0 {
         return;
     }
-    let Scratch { jac, islands, solver: s, .. } = w;
+    let ConstraintScratch { jac, islands, solver: s, .. } = w;
     d.nisland = islands.find(m, jac);
     s.resize(m.nv, d.nefc);
     s.ma.fill(0.0);
@@ -146,7 +146,7 @@ fn warm_start(
     m: &Model,
     d: &mut Fields,
     s: &mut Iterate,
-    trees: &mut TreeScratch,
+    trees: &mut DynamicsScratch,
     islands: &Islands,
     jac: &Jacobian,
 ) -> bool {

@@ -4,7 +4,7 @@
 //! ½ Σ (m |v|² + Σ_k I_k ω_k²) with the components ω_k along the principal axes (König's theorem). It needs neither spatial inertias
 //! nor the mass matrix.
 
-use super::Scratch;
+use super::DynamicsScratch;
 use crate::kinds::joint;
 use crate::math::*;
 use crate::model::index::element_range;
@@ -20,7 +20,7 @@ pub(crate) struct Motion {
 }
 
 /// The kinetic energy of all bodies whose inertia follows their pose, J. The inertia of simple bodies is constant in M.
-pub(crate) fn of_bodies(m: &Model, d: &Fields, w: &mut Scratch) -> f64 {
+pub(crate) fn of_bodies(m: &Model, d: &Fields, w: &mut DynamicsScratch) -> f64 {
     let (moments, ximat) = (rows::<3>(&m.body_inertia), rows::<9>(&d.ximat));
     let mut twice = 0.0;
     for i in 1..m.nbody {

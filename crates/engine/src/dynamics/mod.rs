@@ -28,7 +28,7 @@ use tree_algorithms::AlgorithmStates;
 
 /// Scratch memory of the stages, allocated once.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Scratch {
+pub struct DynamicsScratch {
     /// State of each tree algorithm.
     algorithms: AlgorithmStates,
     /// Whether `qLD` and `qLDiagInv` still have to be computed from the result of another factorization.
@@ -47,9 +47,9 @@ pub struct Scratch {
     pub(crate) diag_inv: Vec<f64>,
 }
 
-impl Scratch {
-    pub(crate) fn new(m: &Model, algorithms: TreeAlgorithms) -> Scratch {
-        Scratch {
+impl DynamicsScratch {
+    pub(crate) fn new(m: &Model, algorithms: TreeAlgorithms) -> DynamicsScratch {
+        DynamicsScratch {
             algorithms: AlgorithmStates::new(m, algorithms),
             rows_due: false,
             needs_mass_rows: true,
@@ -64,7 +64,7 @@ impl Scratch {
 }
 
 /// Poses of bodies, joints, geoms and sites, as `mj_kinematics` computes them.
-pub fn kinematics(m: &Model, d: &mut Fields, w: &mut Scratch) {
+pub fn kinematics(m: &Model, d: &mut Fields, w: &mut DynamicsScratch) {
     tree_algorithms::forward_kinematics(m, d, w);
     tree_algorithms::orientations(d, w);
     kinematics::geoms(m, d);

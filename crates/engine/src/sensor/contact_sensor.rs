@@ -1,6 +1,6 @@
 //! Contact sensors: touch, and contacts that are filtered and reduced.
 
-use super::Scratch;
+use super::SensorScratch;
 use super::data_layout;
 use super::data_layout::CONTACT_DATA;
 use super::put;
@@ -62,7 +62,7 @@ pub(crate) struct Match {
 
 /// Writes the contacts that pass the filter, one slot of data fields each, up to the number of slots. Unused slots
 /// are zero.
-pub(super) fn contacts(m: &Model, d: &mut Fields, w: &mut Scratch, s: usize, out: &mut [f64]) {
+pub(super) fn contacts(m: &Model, d: &mut Fields, w: &mut SensorScratch, s: usize, out: &mut [f64]) {
     out.fill(0.0);
     d.meter.add(20 * d.contact.len() as u64);
     let [mask, reduction] = [m.sensor_intprm[3 * s], m.sensor_intprm[3 * s + 1]];

@@ -4,7 +4,7 @@
 //! The compiler, the evaluation, the plan and the schema are generated from this table. Order and numbers are those
 //! of mjtSensor; the meaning follows MuJoCo's XML reference, chapter "sensor".
 
-use super::Scratch;
+use super::SensorScratch;
 use super::contact_sensor;
 use super::frame_sensor;
 use super::measure;
@@ -82,7 +82,7 @@ pub enum SensorStage {
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Read {
     Of(fn(&Model, &mut Fields, usize, &mut [f64])),
-    With(fn(&Model, &mut Fields, &mut Scratch, usize, &mut [f64])),
+    With(fn(&Model, &mut Fields, &mut SensorScratch, usize, &mut [f64])),
 }
 
 /// A row of the table.

@@ -252,7 +252,7 @@ impl Metric {
         m: &Model,
         d: &Fields,
         slopes: &mut derivative::Work,
-        rows: &constraint::Scratch,
+        rows: &constraint::ConstraintScratch,
         tree: usize,
     ) -> Option<(usize, [Spatial; 6])> {
         let first = m.tree_dofadr[tree] as usize;

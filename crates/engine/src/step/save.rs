@@ -10,7 +10,7 @@ use crate::kinds::cone;
 use crate::model::bytes::{FixedSize, fingerprint};
 use crate::model::reflect::{self, Elem, Object, View};
 use crate::model::{Contact, Fields, Model, Obj, Warning, WarningStat};
-use crate::step::workspace::{Scratch, Workspace};
+use crate::step::workspace::{StepScratch, Workspace};
 use crate::step::{forward, reset};
 use std::fmt;
 use std::ops::Range;
@@ -74,7 +74,7 @@ pub fn save(m: &Model, d: &Fields) -> Vec<u8> {
 
 /// Restores a saved simulation of the same model, bit for bit. The plan of the data stays. The parameters of the
 /// model are not saved: the run continues with their current values.
-pub fn restore(m: &Model, d: &mut Fields, s: &mut Scratch, bytes: &[u8]) -> Result<(), RestoreError> {
+pub fn restore(m: &Model, d: &mut Fields, s: &mut StepScratch, bytes: &[u8]) -> Result<(), RestoreError> {
     let (body, end) = bytes.split_last_chunk::<8>().ok_or(RestoreError::NotData)?;
     let rest = check_header(m, body)?;
     if fingerprint(body) != u64::from_le_bytes(*end) {

@@ -4,7 +4,7 @@ use super::clocked::{self, CLOCKED, Run};
 use super::pipeline::{PassPart, STAGES};
 use crate::model::stage::Stage;
 use crate::model::{Fields, Model};
-use crate::step::workspace::Scratch;
+use crate::step::workspace::StepScratch;
 
 /// The functions of a part of a forward pass, in order. A plan selects functions with one bit each.
 pub(crate) struct Sequence {
@@ -64,7 +64,7 @@ impl Sequence {
 
     /// Runs the functions that the bits select.
     #[cfg_attr(not(feature = "small"), inline(always))]
-    pub(crate) fn run(&self, m: &Model, d: &mut Fields, s: &mut Scratch, mut bits: u32) {
+    pub(crate) fn run(&self, m: &Model, d: &mut Fields, s: &mut StepScratch, mut bits: u32) {
         if bits & CLOCKED != 0 {
             return clocked::walk(&self.run, &self.stage, m, d, s, bits);
         }

@@ -14,7 +14,7 @@
 //! between bodies are needed.
 
 use super::{Assignment, Damped, Factors, NOTHING, Row};
-use crate::dynamics::{Scratch, mass, reflected};
+use crate::dynamics::{DynamicsScratch, mass, reflected};
 use crate::math::*;
 use crate::model::plan::PlanFlag;
 use crate::model::{Fields, Model};
@@ -255,7 +255,7 @@ fn with_carrier(
 }
 
 #[inline(never)] // so that scenes with small trees do not execute its setup code; the same applies below
-fn factor(m: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
+fn factor(m: &Model, d: &mut Fields, w: &mut DynamicsScratch) -> Option<usize> {
     let bad = prepare(m, d, w, None);
     w.rows_due = d.plan.has(PlanFlag::MassForRows);
     if !w.rows_due {
@@ -265,13 +265,13 @@ fn factor(m: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
 }
 
 #[inline(never)]
-fn factor_and_solve(m: &Model, d: &mut Fields, w: &mut Scratch, x: &mut [f64]) -> Option<usize> {
+fn factor_and_solve(m: &Model, d: &mut Fields, w: &mut DynamicsScratch, x: &mut [f64]) -> Option<usize> {
     prepare(m, d, w, Some(x))
 }
 
 /// Computes U and 1/D for solving with M. With `x`, also x ← M⁻¹ x.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn prepare(m: &Model, d: &mut Fields, w: &mut Scratch, mut x: Option<&mut [f64]>) -> Option<usize> {
+fn prepare(m: &Model, d: &mut Fields, w: &mut DynamicsScratch, mut x: Option<&mut [f64]>) -> Option<usize> {
     let articulated = &mut w.algorithms.articulated;
     articulated.untied = m.ntendon == 0 || !reflected::tendons_have_inertia(m);
     let Trees { spans, untied, links, bodies, joints } = articulated;
@@ -307,7 +307,7 @@ fn prepare(m: &Model, d: &mut Fields, w: &mut Scratch, mut x: Option<&mut [f64]>
 }
 
 #[inline(never)]
-fn solve_both(m: &Model, d: &mut Fields, w: &mut Scratch, (b, x, y): Damped<'_>) -> Option<usize> {
+fn solve_both(m: &Model, d: &mut Fields, w: &mut DynamicsScratch, (b, x, y): Damped<'_>) -> Option<usize> {
     let articulated = &mut w.algorithms.articulated;
     articulated.untied = m.ntendon == 0 || !reflected::tendons_have_inertia(m);
     let Trees { spans, untied, links, bodies, joints } = articulated;
@@ -358,7 +358,7 @@ fn get<const I: usize>(joints: &[[Joint; 2]], dofs: Range<usize>, x: &mut [f64])
 
 /// Computes the rows of `qLD`, and `qLDiagInv`.
 #[inline(never)]
-fn rows_of_factor(m: &Model, d: &mut Fields, w: &mut Scratch) {
+fn rows_of_factor(m: &Model, d: &mut Fields, w: &mut DynamicsScratch) {
     let Trees { spans, untied, joints, .. } = &w.algorithms.articulated;
     if !*untied {
         return;
@@ -376,7 +376,7 @@ fn rows_of_factor(m: &Model, d: &mut Fields, w: &mut Scratch) {
 }
 
 #[inline(never)]
-fn solve(m: &Model, d: &Fields, w: &mut Scratch, x: &mut [f64]) {
+fn solve(m: &Model, d: &Fields, w: &mut DynamicsScratch, x: &mut [f64]) {
     let Trees { spans, untied, links, bodies, joints } = &mut w.algorithms.articulated;
     for span in spans.iter() {
         if *untied {
@@ -390,7 +390,7 @@ fn solve(m: &Model, d: &Fields, w: &mut Scratch, x: &mut [f64]) {
 }
 
 #[inline(never)]
-fn solve_with(m: &Model, d: &Fields, w: &mut Scratch, b: &[f64], x: &mut [f64]) {
+fn solve_with(m: &Model, d: &Fields, w: &mut DynamicsScratch, b: &[f64], x: &mut [f64]) {
     let Trees { spans, untied, links, bodies, joints } = &mut w.algorithms.articulated;
     for span in spans.iter() {
         let dofs = span.dofs.clone();

@@ -3,7 +3,7 @@
 //! M is diagonal and constant. The bias force has a closed form: weight for translations, ω × I ω for rotations.
 
 use super::{Assignment, Forces, NOTHING, Row};
-use crate::dynamics::Scratch;
+use crate::dynamics::DynamicsScratch;
 use crate::kinds::joint;
 use crate::math::*;
 use crate::model::reflect::model as fields_of;
@@ -59,7 +59,7 @@ impl Trees {
 }
 
 /// Copies the constant diagonal.
-fn mass(m: &Model, d: &mut Fields, w: &mut Scratch) {
+fn mass(m: &Model, d: &mut Fields, w: &mut DynamicsScratch) {
     for i in w.algorithms.diagonal_inertia.dofs.iter().cloned().flatten() {
         d.M[m.M_rowadr[i] as usize] = m.dof_M0[i];
     }
@@ -92,7 +92,7 @@ impl Joint {
 }
 
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn bias(_: &Model, d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
+fn bias(_: &Model, d: &mut Fields, w: &mut DynamicsScratch, gravity: Vec3) {
     for joint in &w.algorithms.diagonal_inertia.joints {
         bias_of(d, joint, gravity);
     }

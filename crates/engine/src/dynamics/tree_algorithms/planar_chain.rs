@@ -18,7 +18,7 @@
 
 use super::planar_passes::{Joint, Link, forward_kinematics, inward, outward, solve_known};
 use super::{Assignment, Damped, Factors, Forces, NOTHING, Row, chain};
-use crate::dynamics::{Scratch, com, kinematics, mass as rows_of_m, reflected, rne};
+use crate::dynamics::{DynamicsScratch, com, kinematics, mass as rows_of_m, reflected, rne};
 use crate::kinds::joint;
 use crate::math::*;
 use crate::model::plan::PlanFlag;
@@ -206,7 +206,7 @@ impl Trees {
 
 /// Computes the positions of the links, and the rows of M if they are read.
 #[inline(never)] // so that scenes without such chains do not execute its setup code; the same applies below
-fn mass(m: &Model, d: &mut Fields, w: &mut Scratch) {
+fn mass(m: &Model, d: &mut Fields, w: &mut DynamicsScratch) {
     let rows = w.needs_mass_rows;
     let trees = &mut w.algorithms.planar_chain;
     if !trees.flat {
@@ -223,7 +223,7 @@ fn mass(m: &Model, d: &mut Fields, w: &mut Scratch) {
 }
 
 /// Computes the rows of M of chains that are no longer planar.
-fn in_space(m: &Model, d: &mut Fields, w: &mut Scratch) {
+fn in_space(m: &Model, d: &mut Fields, w: &mut DynamicsScratch) {
     kinematics::bodies(d, super::general::frames(w));
     com::com_pos(m, d);
     com::body_inertias(m, d);
@@ -260,7 +260,7 @@ fn rows_of_mass(m: &Model, mass: &mut [f64], span: &Span, links: &mut [Link], hi
 
 /// Computes the bias force.
 #[inline(never)]
-fn bias(m: &Model, d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
+fn bias(m: &Model, d: &mut Fields, w: &mut DynamicsScratch, gravity: Vec3) {
     if !w.algorithms.planar_chain.flat {
         com::com_vel(m, d);
         return rne::newton_euler(m, d, w, gravity);
@@ -292,7 +292,7 @@ fn bias(m: &Model, d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
 
 /// Computes U and 1/D for solving with M. With `x`, also x ← M⁻¹ x.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn prepare(m: &Model, d: &mut Fields, w: &mut Scratch, mut x: Option<&mut [f64]>) -> Option<usize> {
+fn prepare(m: &Model, d: &mut Fields, w: &mut DynamicsScratch, mut x: Option<&mut [f64]>) -> Option<usize> {
     let trees = &mut w.algorithms.planar_chain;
     trees.untied = m.ntendon == 0 || !reflected::tendons_have_inertia(m);
     let mut bad = None;
@@ -327,7 +327,7 @@ fn prepare(m: &Model, d: &mut Fields, w: &mut Scratch, mut x: Option<&mut [f64]>
 }
 
 #[inline(never)]
-fn factor(m: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
+fn factor(m: &Model, d: &mut Fields, w: &mut DynamicsScratch) -> Option<usize> {
     let bad = prepare(m, d, w, None);
     w.rows_due = d.plan.has(PlanFlag::MassForRows);
     if !w.rows_due {
@@ -337,12 +337,12 @@ fn factor(m: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
 }
 
 #[inline(never)]
-fn factor_and_solve(m: &Model, d: &mut Fields, w: &mut Scratch, x: &mut [f64]) -> Option<usize> {
+fn factor_and_solve(m: &Model, d: &mut Fields, w: &mut DynamicsScratch, x: &mut [f64]) -> Option<usize> {
     prepare(m, d, w, Some(x))
 }
 
 #[inline(never)]
-fn solve_both(m: &Model, d: &mut Fields, w: &mut Scratch, (b, x, y): Damped<'_>) -> Option<usize> {
+fn solve_both(m: &Model, d: &mut Fields, w: &mut DynamicsScratch, (b, x, y): Damped<'_>) -> Option<usize> {
     let trees = &mut w.algorithms.planar_chain;
     trees.untied = m.ntendon == 0 || !reflected::tendons_have_inertia(m);
     if !(trees.untied && trees.flat) {
@@ -369,7 +369,7 @@ fn solve_both(m: &Model, d: &mut Fields, w: &mut Scratch, (b, x, y): Damped<'_>)
 
 /// Computes the rows of `qLD`, and `qLDiagInv`.
 #[inline(never)]
-fn rows_of_factor(m: &Model, d: &mut Fields, w: &mut Scratch) {
+fn rows_of_factor(m: &Model, d: &mut Fields, w: &mut DynamicsScratch) {
     let Trees { spans, links, joints, hinges, untied, flat, .. } = &mut w.algorithms.planar_chain;
     if !(*untied && *flat) {
         return;
@@ -392,7 +392,7 @@ fn rows_of_factor(m: &Model, d: &mut Fields, w: &mut Scratch) {
 }
 
 #[inline(never)]
-fn solve(m: &Model, d: &Fields, w: &mut Scratch, x: &mut [f64]) {
+fn solve(m: &Model, d: &Fields, w: &mut DynamicsScratch, x: &mut [f64]) {
     let Trees { spans, links, joints, untied, flat, .. } = &mut w.algorithms.planar_chain;
     for Span { dofs, links: range, .. } in spans.iter() {
         if !(*untied && *flat) {
@@ -407,7 +407,7 @@ fn solve(m: &Model, d: &Fields, w: &mut Scratch, x: &mut [f64]) {
 }
 
 #[inline(never)]
-fn solve_with(m: &Model, d: &Fields, w: &mut Scratch, b: &[f64], x: &mut [f64]) {
+fn solve_with(m: &Model, d: &Fields, w: &mut DynamicsScratch, b: &[f64], x: &mut [f64]) {
     let Trees { spans, links, joints, untied, flat, .. } = &mut w.algorithms.planar_chain;
     for Span { dofs, links: range, .. } in spans.iter() {
         if !(*untied && *flat) {

@@ -6,7 +6,7 @@
 //! factorization are reused.
 
 use super::{Assignment, Damped, Factors, Forces, NOTHING, Row};
-use crate::dynamics::{Scratch, mass as rows_of_mass};
+use crate::dynamics::{DynamicsScratch, mass as rows_of_mass};
 use crate::kinds::joint;
 use crate::math::*;
 use crate::model::reflect::model as fields_of;
@@ -140,7 +140,7 @@ impl Trees {
     }
 }
 
-fn mass(m: &Model, d: &mut Fields, w: &mut Scratch) {
+fn mass(m: &Model, d: &mut Fields, w: &mut DynamicsScratch) {
     let trees = &mut w.algorithms.prismatic;
     trees.update(m, rows::<3>(&d.xaxis));
     for slide in &trees.slides {
@@ -148,14 +148,14 @@ fn mass(m: &Model, d: &mut Fields, w: &mut Scratch) {
     }
 }
 
-fn bias(_: &Model, d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
+fn bias(_: &Model, d: &mut Fields, w: &mut DynamicsScratch, gravity: Vec3) {
     let axes = rows::<3>(&d.xaxis);
     for slide in &w.algorithms.prismatic.slides {
         d.qfrc_bias[slide.dof] = -slide.mass * dot(gravity, axes[slide.joint]);
     }
 }
 
-fn factor(m: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
+fn factor(m: &Model, d: &mut Fields, w: &mut DynamicsScratch) -> Option<usize> {
     let mut bad = None;
     for tree in &mut w.algorithms.prismatic.factored {
         let (rows, dofs) = (tree.rows.clone(), tree.dofs.clone());
@@ -179,26 +179,26 @@ fn factor(m: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
     bad
 }
 
-fn solve(m: &Model, d: &Fields, w: &mut Scratch, x: &mut [f64]) {
+fn solve(m: &Model, d: &Fields, w: &mut DynamicsScratch, x: &mut [f64]) {
     for tree in &w.algorithms.prismatic.factored {
         rows_of_mass::solve(m, &d.qLD, &d.qLDiagInv, x, tree.dofs.clone());
     }
 }
 
-fn solve_with(m: &Model, d: &Fields, w: &mut Scratch, b: &[f64], x: &mut [f64]) {
+fn solve_with(m: &Model, d: &Fields, w: &mut DynamicsScratch, b: &[f64], x: &mut [f64]) {
     for tree in &w.algorithms.prismatic.factored {
         let dofs = tree.dofs.clone();
         rows_of_mass::solve_with(m, &d.M, b, [&mut w.ld, &mut w.diag_inv], dofs, x);
     }
 }
 
-fn factor_and_solve(m: &Model, d: &mut Fields, w: &mut Scratch, x: &mut [f64]) -> Option<usize> {
+fn factor_and_solve(m: &Model, d: &mut Fields, w: &mut DynamicsScratch, x: &mut [f64]) -> Option<usize> {
     let bad = factor(m, d, w);
     solve(m, d, w, x);
     bad
 }
 
-fn solve_both(m: &Model, d: &mut Fields, w: &mut Scratch, (b, x, y): Damped<'_>) -> Option<usize> {
+fn solve_both(m: &Model, d: &mut Fields, w: &mut DynamicsScratch, (b, x, y): Damped<'_>) -> Option<usize> {
     solve_with(m, d, w, b, y);
     factor_and_solve(m, d, w, x)
 }

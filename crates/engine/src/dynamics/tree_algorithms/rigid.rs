@@ -12,7 +12,7 @@
 //! > kinetic energy ½ m v² + v · R(ω × h) + ½ ω · I ω, bias along v = R(ω × (ω × h)) - m g
 
 use super::{Assignment, Forces, NOTHING, Row};
-use crate::dynamics::{Scratch, mass as rows_of_mass};
+use crate::dynamics::{DynamicsScratch, mass as rows_of_mass};
 use crate::kinds::joint;
 use crate::math::*;
 use crate::model::reflect::{FieldId, model as fields_of};
@@ -130,7 +130,7 @@ impl Body {
     }
 }
 
-fn mass(_: &Model, d: &mut Fields, w: &mut Scratch) {
+fn mass(_: &Model, d: &mut Fields, w: &mut DynamicsScratch) {
     for body in &w.algorithms.rigid.bodies {
         let [xx, yy, zz, xy, xz, yz, hx, hy, hz, mass] = body.inertia;
         let ([a, b, c], [u, v, w]) = (body.turning, body.moving);
@@ -161,7 +161,7 @@ fn fill<const N: usize>(rows: &mut [f64], values: [f64; N]) {
     }
 }
 
-fn bias(_: &Model, d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
+fn bias(_: &Model, d: &mut Fields, w: &mut DynamicsScratch, gravity: Vec3) {
     for body in &w.algorithms.rigid.bodies {
         let [xx, yy, zz, xy, xz, yz, hx, hy, hz, mass] = body.inertia;
         let (h, axes) = ([hx, hy, hz], &rows::<9>(&d.xmat)[body.body]);

@@ -16,7 +16,7 @@ pub(crate) mod muscle;
 mod rates;
 mod servo;
 
-use crate::forces::{Scratch, transmission};
+use crate::forces::{ForceScratch, transmission};
 use crate::kinds::{biastype, disable, dyntype, gaintype, joint, trntype};
 use crate::math::*;
 use crate::model::index::{element_range, object_index};
@@ -56,7 +56,7 @@ fn exact(act: f64, rate: f64, tau: f64, h: f64) -> f64 {
 
 /// Computes `actuator_force`, `act_dot`, `qfrc_actuator`.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(crate) fn actuation(m: &Model, d: &mut Fields, w: &mut Scratch) {
+pub(crate) fn actuation(m: &Model, d: &mut Fields, w: &mut ForceScratch) {
     if !(d.plan.has(PlanFlag::Motors) && motors(m, d)) {
         any(m, d, w);
     }
@@ -64,7 +64,7 @@ pub(crate) fn actuation(m: &Model, d: &mut Fields, w: &mut Scratch) {
 
 /// Like [`actuation`], for actuators of any kind.
 #[inline(never)]
-fn any(m: &Model, d: &mut Fields, w: &mut Scratch) {
+fn any(m: &Model, d: &mut Fields, w: &mut ForceScratch) {
     if m.nactuator == 0 || m.opt.disabled(disable::ACTUATION) {
         d.actuator_force.fill(0.0);
         d.qfrc_actuator.fill(0.0);

@@ -10,7 +10,7 @@ mod space;
 
 use crate::dynamics::reflected::target;
 use crate::dynamics::walk;
-use crate::forces::{Scratch, tendon};
+use crate::forces::{ForceScratch, tendon};
 use crate::kinds::{disable, joint, trntype};
 use crate::math::*;
 use crate::model::{Fields, Model, asleep};
@@ -70,7 +70,7 @@ pub fn entries(m: &Model) -> usize {
 }
 
 /// Computes `actuator_length`, `actuator_moment` and its pattern. A sleeping actuator keeps its lengths and has no moments.
-pub fn transmissions(m: &Model, d: &mut Fields, w: &mut Scratch) {
+pub fn transmissions(m: &Model, d: &mut Fields, w: &mut ForceScratch) {
     // Removed temporarily, so that the rest of the data can be read while they are written.
     let mut out = Rows {
         colind: std::mem::take(&mut d.moment_colind),
@@ -99,7 +99,7 @@ pub fn transmissions(m: &Model, d: &mut Fields, w: &mut Scratch) {
 
 /// Computes output `o` of actuator `i` for transmissions other than to joints.
 #[inline(never)] // most actuators are motors of joints
-fn beyond_joints(m: &Model, d: &mut Fields, [i, o]: [usize; 2], w: &mut Scratch, out: &mut Rows) -> f64 {
+fn beyond_joints(m: &Model, d: &mut Fields, [i, o]: [usize; 2], w: &mut ForceScratch, out: &mut Rows) -> f64 {
     let gear = rows::<6>(&m.actuator_gear)[o];
     let nth = o - m.actuator_outadr[i] as usize;
     match (m.actuator_trntype[i], target(m, i)) {

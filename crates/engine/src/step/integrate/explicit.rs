@@ -3,7 +3,7 @@
 use super::flow;
 use crate::math::combine;
 use crate::model::{Fields, Model};
-use crate::step::workspace::Scratch;
+use crate::step::workspace::StepScratch;
 
 /// A method. Stage s starts from the state at the start of the step plus h times the slopes of the previous stages, with the
 /// weights of its row. The result uses `weights`. The first stage is the state at the start itself and has no row.
@@ -77,7 +77,7 @@ pub(super) const EIGHTH: Method = Method {
 };
 
 /// Makes a step.
-pub(super) fn explicit(m: &Model, d: &mut Fields, s: &mut Scratch, method: &Method) {
+pub(super) fn explicit(m: &Model, d: &mut Fields, s: &mut StepScratch, method: &Method) {
     let h = m.opt.timestep;
     let mut w = flow::enter(m, d, s, method.weights.len());
     let n = w.start.len();

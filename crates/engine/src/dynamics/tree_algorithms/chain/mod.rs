@@ -20,7 +20,7 @@ mod tests;
 use super::{Assignment, Forces, NOTHING, Row};
 pub(super) use planar::plane_of;
 
-use crate::dynamics::{Scratch, mass, walk};
+use crate::dynamics::{DynamicsScratch, mass, walk};
 use crate::kinds::joint;
 use crate::math::*;
 use crate::model::reflect::{FieldId, model as fields_of};
@@ -297,12 +297,12 @@ macro_rules! by_length {
 }
 
 /// Computes the rows of M of short chains.
-fn mass(_: &Model, d: &mut Fields, w: &mut Scratch) {
+fn mass(_: &Model, d: &mut Fields, w: &mut DynamicsScratch) {
     by_length!(w.algorithms.chain, mass_matrix(&d.qpos, &mut d.M));
 }
 
 /// Computes the bias force of short chains.
 #[inline(never)] // so that scenes without such chains do not execute its setup code
-fn bias(_: &Model, d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
+fn bias(_: &Model, d: &mut Fields, w: &mut DynamicsScratch, gravity: Vec3) {
     by_length!(w.algorithms.chain, bias(&d.qvel, &mut d.qfrc_bias, gravity));
 }
