@@ -16,7 +16,7 @@ use crate::model::{Fields, Model};
 /// The bounding sphere of a geom, enlarged by its margin, its interval on the axis, and the columns that it
 /// intersects.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Shadow {
+struct SweepEntry {
     low: f64,
     high: f64,
     centre: Vec3,
@@ -28,16 +28,16 @@ struct Shadow {
     wide: bool,
 }
 
-impl Shadow {
+impl SweepEntry {
     #[cfg_attr(not(feature = "small"), inline(always))]
-    fn near(&self, other: &Shadow) -> bool {
+    fn near(&self, other: &SweepEntry) -> bool {
         let between = sub(self.centre, other.centre);
         let reach = self.radius + other.radius;
         dot(between, between) <= reach * reach
     }
 
     /// The first column that two geoms share. They must share at least one.
-    fn first_common(&self, other: &Shadow) -> [i32; 2] {
+    fn first_common(&self, other: &SweepEntry) -> [i32; 2] {
         let [a, b] = [self.columns, other.columns];
         [a[0][0].max(b[0][0]), a[1][0].max(b[1][0])]
     }
@@ -56,7 +56,7 @@ type Entry = ([i32; 2], u32);
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Sweep {
     /// Bounded geoms, sorted by the lower end of their interval in the last step.
-    shadows: Vec<Shadow>,
+    shadows: Vec<SweepEntry>,
     /// Planes, which are unbounded.
     planes: Vec<u32>,
     /// Geoms wider than a column, sorted by lower end.
@@ -88,7 +88,7 @@ impl Sweep {
         };
         let n = of(true).count();
         Sweep {
-            shadows: of(true).map(|geom| Shadow { geom, ..Shadow::default() }).collect(),
+            shadows: of(true).map(|geom| SweepEntry { geom, ..SweepEntry::default() }).collect(),
             planes: of(false).collect(),
             wide: Vec::with_capacity(n),
             entries: Vec::with_capacity(MOST_COLUMNS * n),
@@ -248,7 +248,7 @@ fn may_touch(m: &Model, a: usize, b: usize) -> Option<Pair> {
 }
 
 /// The axis with the largest variance of the centres.
-fn axis_of_largest_variance(shadows: &[Shadow], centres: &[Vec3]) -> usize {
+fn axis_of_largest_variance(shadows: &[SweepEntry], centres: &[Vec3]) -> usize {
     let n = shadows.len().max(1) as f64;
     let (mut sum, mut squares) = ([0.0; 3], [0.0; 3]);
     for s in shadows {

@@ -70,7 +70,7 @@ pub(super) fn unilateral_along(x: f64, v: f64, alpha: f64, stiff: f64) -> [f64; 
 
 /// The parameters of the cost of one constraint.
 #[derive(Clone, Copy)]
-pub(super) struct Shape<'a, const R: usize> {
+pub(super) struct CostParameters<'a, const R: usize> {
     pub(super) cost: Cost,
     /// 1/R of each row.
     pub(super) stiff: &'a [f64; R],
@@ -122,7 +122,7 @@ impl<const R: usize> SlidingCone<R> {
     }
 }
 
-impl<const R: usize> Shape<'_, R> {
+impl<const R: usize> CostParameters<'_, R> {
     /// Cost and force at x.
     #[inline]
     pub(super) fn value(&self, x: &[f64; R]) -> (f64, [f64; R]) {
@@ -333,15 +333,19 @@ mod tests {
             }
             let cost = [Cost::Quadratic, Cost::Unilateral, Cost::DryFriction, Cost::Cone][which];
             if which == 2 {
-                let shape = Shape { cost, stiff: &[d0], loss, contact: None };
+                let shape = CostParameters { cost, stiff: &[d0], loss, contact: None };
                 check_shape(&shape, &[x[0]], &[v[0]])?;
             } else {
-                check_shape(&Shape { cost, stiff: &stiff, loss, contact: Some(&contact) }, &x, &v)?;
+                check_shape(&CostParameters { cost, stiff: &stiff, loss, contact: Some(&contact) }, &x, &v)?;
             }
         }
     }
 
-    fn check_shape<const R: usize>(s: &Shape<R>, x: &[f64; R], v: &[f64; R]) -> Result<(), TestCaseError> {
+    fn check_shape<const R: usize>(
+        s: &CostParameters<R>,
+        x: &[f64; R],
+        v: &[f64; R],
+    ) -> Result<(), TestCaseError> {
         let at = |alpha: f64| -> [f64; R] { std::array::from_fn(|r| x[r] + alpha * v[r]) };
         let h = 1e-6;
         let (ahead, behind) = (s.value(&at(h)), s.value(&at(-h)));

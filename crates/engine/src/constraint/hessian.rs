@@ -10,14 +10,14 @@
 mod tree_order;
 
 use super::island::Islands;
-use super::jacobian::{HessianAccumulator, Jacobian};
+use super::jacobian::{ConstraintJacobian, HessianAccumulator};
 use crate::dynamics::mass;
 use crate::math::lanes::total;
 use crate::math::{self, MINVAL, broken_invariant};
 use crate::model::Model;
 use std::array::from_fn;
 use std::ops::Range;
-use tree_order::Order;
+use tree_order::TreeOrder;
 use wide::f64x4;
 
 /// Maximum number of degrees of freedom for which trees keep the order of the model.
@@ -62,7 +62,7 @@ pub(super) struct Hessian {
     passed: usize,
     /// Scratch for a block of the Jacobian: its rows in groups of four columns.
     fours: Vec<Four>,
-    order: Order,
+    order: TreeOrder,
     /// How many times a layout was computed.
     #[cfg(test)]
     pub(super) laid_out: usize,
@@ -115,7 +115,7 @@ impl Hessian {
     pub(super) fn compute_layout(
         &mut self,
         m: &Model,
-        jac: &Jacobian,
+        jac: &ConstraintJacobian,
         islands: &Islands,
         island: usize,
     ) -> bool {
@@ -174,7 +174,7 @@ impl Hessian {
 
     /// Finds the first column of every row. Rows of M begin at the first descendant; rows of a Jacobian block all
     /// begin at its first column.
-    fn find_first(&mut self, m: &Model, jac: &Jacobian, islands: &Islands, island: usize) {
+    fn find_first(&mut self, m: &Model, jac: &ConstraintJacobian, islands: &Islands, island: usize) {
         let (first, local) = (&mut self.first, &self.local);
         first.clear();
         first.extend(0..self.len as u32);
@@ -210,7 +210,7 @@ impl Hessian {
     }
 
     /// Finds the column blocks of H for the columns of Jacobian blocks.
-    fn place_columns(&mut self, jac: &Jacobian, blocks: impl Iterator<Item = usize>) {
+    fn place_columns(&mut self, jac: &ConstraintJacobian, blocks: impl Iterator<Item = usize>) {
         self.column_blocks.clear();
         self.listed_columns.clear();
         self.lanes.clear();

@@ -8,7 +8,7 @@ use super::ConstraintScratch;
 use super::contact_rows;
 use super::cost::Cost;
 use super::equality_rows;
-use super::jacobian::{Block, Jacobian};
+use super::jacobian::{ConstraintJacobian, JacobianBlock};
 use super::kind;
 use super::row_counts::MOST_ROWS;
 use super::rows::{resize, soften};
@@ -45,7 +45,7 @@ fn growth(h: f64, [k, b, imp, _]: &[f64; 4]) -> f64 {
 }
 
 /// Sets R/s for the rows of a block, scaled to the inertia of the current metric.
-fn soften_block(m: &Model, d: &mut Fields, jac: &Jacobian, metric: &[f64], b: &Block) {
+fn soften_block(m: &Model, d: &mut Fields, jac: &ConstraintJacobian, metric: &[f64], b: &JacobianBlock) {
     let (row, n) = (b.row as usize, b.nrow as usize);
     // Ratio of Σ J²/M' to Σ J²/M, using only the diagonals.
     let (mut now, mut before) = ([0.0; MOST_ROWS], [0.0; MOST_ROWS]);

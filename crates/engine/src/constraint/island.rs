@@ -2,7 +2,7 @@
 //!
 //! They are the connected components, found by union-find with path halving (Tarjan and van Leeuwen 1984).
 
-use super::jacobian::Jacobian;
+use super::jacobian::ConstraintJacobian;
 use crate::kinds::disable;
 use crate::model::Model;
 use std::ops::Range;
@@ -97,7 +97,7 @@ impl Islands {
 
     /// Groups the blocks of the Jacobian and returns the number of islands, which are numbered by their first tree.
     /// If the columns of the blocks are those of the last step, nothing is computed.
-    pub(super) fn find(&mut self, m: &Model, jac: &Jacobian) -> usize {
+    pub(super) fn find(&mut self, m: &Model, jac: &ConstraintJacobian) -> usize {
         let together = m.opt.disabled(disable::ISLAND);
         if self.together == together && jac.same_columns(&self.ends, &self.columns) {
             return self.count;
@@ -151,7 +151,7 @@ impl Islands {
     }
 
     /// Assigns the number of its island to each tree that a constraint moves. Returns the number of islands.
-    fn number(&mut self, m: &Model, jac: &Jacobian) -> usize {
+    fn number(&mut self, m: &Model, jac: &ConstraintJacobian) -> usize {
         self.link.clear();
         self.link.extend(0..m.ntree as u32);
         for b in &jac.blocks {

@@ -46,13 +46,13 @@ use crate::kinds;
 use crate::model::Model;
 pub(crate) use island::Islands;
 use iterate::Iterate;
-use jacobian::Jacobian;
+use jacobian::ConstraintJacobian;
 
 /// Scratch memory of the constraint stages, kept between stages and between steps.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ConstraintScratch {
     /// Jacobian of the constraints.
-    pub jac: Jacobian,
+    pub jac: ConstraintJacobian,
     /// Columns of one contact's Jacobian.
     columns: Columns,
     pub(crate) islands: Islands,

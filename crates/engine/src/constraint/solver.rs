@@ -7,8 +7,8 @@ use super::ConstraintScratch;
 use super::cost::{Cost, clamp_unilateral};
 use super::island::Islands;
 use super::iterate::{IslandProgress, Iterate};
-use super::jacobian::{Block, Jacobian};
-use super::primal::{Problem, shape};
+use super::jacobian::{ConstraintJacobian, JacobianBlock};
+use super::primal::{PrimalProblem, shape};
 use super::row_counts::by_rows;
 use crate::dynamics::{DynamicsScratch, mass, tree_algorithms};
 use crate::kinds::{disable, solver};
@@ -55,7 +55,7 @@ fn solve_rows(m: &Model, d: &mut Fields, w: &mut ConstraintScratch, trees: &mut 
     }
     if dual {
         for island in 0..d.nisland {
-            let mut problem = Problem { m, d, s, trees, islands, jac, island };
+            let mut problem = PrimalProblem { m, d, s, trees, islands, jac, island };
             if m.opt.solver == solver::PGS {
                 problem.gauss_seidel();
             }
@@ -78,7 +78,7 @@ fn primal(
     s: &mut Iterate,
     trees: &mut DynamicsScratch,
     islands: &Islands,
-    jac: &Jacobian,
+    jac: &ConstraintJacobian,
 ) {
     if !m.opt.disabled(disable::WARMSTART) && warm_start(m, d, s, trees, islands, jac) {
         return;
@@ -88,7 +88,7 @@ fn primal(
     copy(&d.qfrc_smooth, &mut s.ma);
     jac.residual(&d.qacc_smooth, &d.efc_aref, &mut s.jar);
     for island in 0..d.nisland {
-        let mut problem = Problem { m, d, s, trees, islands, jac, island };
+        let mut problem = PrimalProblem { m, d, s, trees, islands, jac, island };
         let from = problem.evaluate_start();
         problem.run(from);
     }
@@ -102,7 +102,7 @@ fn dual_start(
     s: &mut Iterate,
     trees: &mut DynamicsScratch,
     islands: &Islands,
-    jac: &Jacobian,
+    jac: &ConstraintJacobian,
 ) {
     d.efc_force.fill(0.0);
     if m.opt.disabled(disable::WARMSTART) {
@@ -111,7 +111,7 @@ fn dual_start(
     jac.residual(&d.qacc_warmstart, &d.efc_aref, &mut s.jar);
     let mut cost = 0.0;
     for island in 0..d.nisland {
-        let mut problem = Problem { m, d, s, trees, islands, jac, island };
+        let mut problem = PrimalProblem { m, d, s, trees, islands, jac, island };
         problem.update();
         cost += problem.dual_cost();
     }
@@ -132,7 +132,7 @@ pub(crate) fn inverse(m: &Model, d: &mut Fields, w: &mut ConstraintScratch, tree
     s.ma.fill(0.0);
     jac.residual(&d.qacc, &d.efc_aref, &mut s.jar);
     for island in 0..d.nisland {
-        Problem { m, d, s, trees, islands, jac, island }.update();
+        PrimalProblem { m, d, s, trees, islands, jac, island }.update();
     }
 }
 
@@ -148,7 +148,7 @@ fn warm_start(
     s: &mut Iterate,
     trees: &mut DynamicsScratch,
     islands: &Islands,
-    jac: &Jacobian,
+    jac: &ConstraintJacobian,
 ) -> bool {
     jac.residual(&d.qacc_warmstart, &d.efc_aref, &mut s.jar);
     for tree in 0..m.ntree {
@@ -160,7 +160,7 @@ fn warm_start(
         for dofs in islands.dofs(island) {
             copy(&d.qacc_warmstart[dofs.clone()], &mut d.qacc[dofs]);
         }
-        progress.push(Problem { m, d, s, trees, islands, jac, island }.evaluate_start());
+        progress.push(PrimalProblem { m, d, s, trees, islands, jac, island }.evaluate_start());
     }
     let mut done = progress.iter().all(|r| r.minimum);
     if !done {
@@ -175,7 +175,7 @@ fn warm_start(
             || m.opt.solver == solver::NEWTON && jac.blocks.iter().all(|b| b.cost == Cost::Quadratic);
         if quadratic() || !costs_less(d, jac, s, warm) {
             for (island, &from) in progress.iter().enumerate() {
-                Problem { m, d, s, trees, islands, jac, island }.run(from);
+                PrimalProblem { m, d, s, trees, islands, jac, island }.run(from);
             }
             done = true;
         }
@@ -186,7 +186,7 @@ fn warm_start(
 
 /// Whether the unconstrained acceleration has a cost lower than `most`. Costs are not negative, so the summation
 /// stops as soon as it reaches `most`.
-fn costs_less(d: &Fields, jac: &Jacobian, s: &mut Iterate, most: f64) -> bool {
+fn costs_less(d: &Fields, jac: &ConstraintJacobian, s: &mut Iterate, most: f64) -> bool {
     let cost_of = |x: f64, w: f64| 0.5 * w * clamp_unilateral(x) * clamp_unilateral(x);
     let mut cost = 0.0;
     for b in &jac.blocks {
@@ -206,7 +206,7 @@ fn costs_less(d: &Fields, jac: &Jacobian, s: &mut Iterate, most: f64) -> bool {
     cost < most || most.is_nan() || cost.is_nan()
 }
 
-fn block_cost<const R: usize>(d: &Fields, b: &Block, x: &[f64]) -> f64 {
+fn block_cost<const R: usize>(d: &Fields, b: &JacobianBlock, x: &[f64]) -> f64 {
     match (shape::<R>(d, b), x[b.rows()].first_chunk::<R>()) {
         (Some(shape), Some(x)) => shape.value(x).0,
         _ => 0.0,
@@ -214,12 +214,12 @@ fn block_cost<const R: usize>(d: &Fields, b: &Block, x: &[f64]) -> f64 {
 }
 
 /// `efc_b`.
-pub(crate) fn unconstrained_residual(d: &mut Fields, jac: &Jacobian) {
+pub(crate) fn unconstrained_residual(d: &mut Fields, jac: &ConstraintJacobian) {
     jac.residual(&d.qacc_smooth, &d.efc_aref, &mut d.efc_b);
 }
 
 /// Computes `efc_b` and `efc_state`, if they are read.
-fn details(d: &mut Fields, jac: &Jacobian, jar: &[f64]) {
+fn details(d: &mut Fields, jac: &ConstraintJacobian, jar: &[f64]) {
     unconstrained_residual(d, jac);
     for i in 0..jac.blocks.len() {
         let b = jac.blocks[i];
@@ -227,14 +227,14 @@ fn details(d: &mut Fields, jac: &Jacobian, jar: &[f64]) {
     }
 }
 
-fn block_state<const R: usize>(d: &mut Fields, b: &Block, jar: &[f64]) {
+fn block_state<const R: usize>(d: &mut Fields, b: &JacobianBlock, jar: &[f64]) {
     if let (Some(shape), Some(x)) = (shape::<R>(d, b), jar[b.rows()].first_chunk::<R>()) {
         let state = shape.state(x);
         d.efc_state[b.rows()].copy_from_slice(&state);
     }
 }
 
-impl Problem<'_> {
+impl PrimalProblem<'_> {
     /// Solves the problem from a starting point, with the method that the model selects.
     #[cfg_attr(not(feature = "small"), inline(always))]
     fn run(&mut self, from: IslandProgress) {

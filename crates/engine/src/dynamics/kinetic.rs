@@ -12,7 +12,7 @@ use crate::model::{Fields, Model};
 
 /// The motion of a body, world frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Motion {
+pub(crate) struct BodyMotion {
     /// Angular velocity, rad/s.
     angular: Vec3,
     /// Velocity of the centre of mass, m/s.
@@ -37,7 +37,7 @@ pub(crate) fn of_bodies(m: &Model, d: &Fields, w: &mut DynamicsScratch) -> f64 {
 
 /// The motion of a body, from that of its parent and the velocities of its joints.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn of_body(m: &Model, d: &Fields, i: usize, parent: &Motion) -> Motion {
+fn of_body(m: &Model, d: &Fields, i: usize, parent: &BodyMotion) -> BodyMotion {
     let xipos = rows::<3>(&d.xipos);
     let (xanchor, xaxis) = (rows::<3>(&d.xanchor), rows::<3>(&d.xaxis));
     let centre = xipos[i];

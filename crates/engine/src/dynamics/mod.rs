@@ -41,7 +41,7 @@ pub struct DynamicsScratch {
     cacc: Vec<f64>,
     cfrc: Vec<f64>,
     /// Motions of bodies, for their kinetic energy.
-    motions: Vec<kinetic::Motion>,
+    motions: Vec<kinetic::BodyMotion>,
     /// A temporary factorization: rows and 1/D.
     pub(crate) ld: Vec<f64>,
     pub(crate) diag_inv: Vec<f64>,
@@ -56,7 +56,7 @@ impl DynamicsScratch {
             path: Path::new(m),
             cacc: vec![0.0; 6 * m.nbody],
             cfrc: vec![0.0; 6 * m.nbody],
-            motions: vec![kinetic::Motion::default(); m.nbody],
+            motions: vec![kinetic::BodyMotion::default(); m.nbody],
             ld: vec![0.0; m.nC],
             diag_inv: vec![0.0; m.nv],
         }

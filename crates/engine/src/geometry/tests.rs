@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 
 use super::convex::{Convex, nearest};
 use super::pair::{self, ContactPoint, Method, PairSettings};
-use super::{Field, Hull, HullFaces, Mesh, Narrow, Shape, ray, ray_shape};
+use super::{HeightField, Hull, HullFaces, Mesh, Narrow, Shape, ray, ray_shape};
 use crate::kinds::geom;
 use crate::math::*;
 use crate::model::Model;
@@ -89,7 +89,7 @@ impl Assets {
                 let (head, samples) = self.field.as_ref().unwrap();
                 let size = [head[2], head[3], head[4], head[5]];
                 shape.field =
-                    Some(Field { size, nrow: head[0] as usize, ncol: head[1] as usize, data: samples });
+                    Some(HeightField { size, nrow: head[0] as usize, ncol: head[1] as usize, data: samples });
             }
             _ => {}
         }
@@ -128,9 +128,9 @@ struct Cases {
 }
 
 #[derive(Default)]
-struct Report(BTreeMap<String, Cases>);
+struct ToleranceReport(BTreeMap<String, Cases>);
 
-impl Report {
+impl ToleranceReport {
     fn note(&mut self, name: String, case: usize, difference: f64, bound: f64, line: &str) {
         let r = self.0.entry(name).or_default();
         r.number += 1;
@@ -222,7 +222,7 @@ fn pierced(a: &Shape, b: &Shape) -> bool {
 fn rays_hit_where_they_do_in_mujoco() {
     let (text, print) = cases("rays.txt", include_str!("golden/rays.txt"));
     let assets = Assets::read(&text);
-    let mut report = Report::default();
+    let mut report = ToleranceReport::default();
     for (case, line) in text.lines().filter(|l| l.starts_with("ray ")).enumerate() {
         let (given, expected) = line.split_once('|').unwrap();
         let mut words = given.split_whitespace();
@@ -285,7 +285,7 @@ const DISTANCES: &[Known] = &[("box-box fromto", &[1235], FLAT), ("capsule-cylin
 fn distances_are_those_of_mujoco() {
     let (text, print) = cases("pairs.txt", include_str!("golden/pairs.txt"));
     let assets = Assets::read(&text);
-    let (mut report, mut figures) = (Report::default(), Figures::default());
+    let (mut report, mut figures) = (ToleranceReport::default(), Figures::default());
     let mut work = Narrow::default();
     for (case, line) in text.lines().filter(|l| l.starts_with("distance ")).enumerate() {
         let (given, expected) = line.split_once('|').unwrap();
@@ -349,7 +349,7 @@ const CONTACTS: &[Known] = &[
 fn contacts_are_those_of_mujoco() {
     let (text, print) = cases("pairs.txt", include_str!("golden/pairs.txt"));
     let assets = Assets::read(&text);
-    let (mut report, mut figures) = (Report::default(), Figures::default());
+    let (mut report, mut figures) = (ToleranceReport::default(), Figures::default());
     let mut work = Narrow::default();
     for (case, line) in text.lines().filter(|l| l.starts_with("contact ")).enumerate() {
         let (given, expected) = line.split_once('|').unwrap();
@@ -452,7 +452,8 @@ fn hostile_numbers_are_harmless() {
         if s.kind == geom::HFIELD {
             let (head, samples) = assets.field.as_ref().unwrap();
             let size = [at(6), at(7), at(8), at(9)];
-            s.field = Some(Field { size, nrow: head[0] as usize, ncol: head[1] as usize, data: samples });
+            s.field =
+                Some(HeightField { size, nrow: head[0] as usize, ncol: head[1] as usize, data: samples });
         }
         s
     };

@@ -2,18 +2,18 @@
 //! a site.
 
 use super::put;
-use crate::dynamics::object::{self, Frame};
+use crate::dynamics::object::{self, ObjectFrame};
 use crate::math::*;
 use crate::model::{Fields, Model};
 use crate::query;
 
 /// The frame of the sensed object.
-fn sensed_frame(m: &Model, d: &Fields, s: usize) -> Option<Frame> {
+fn sensed_frame(m: &Model, d: &Fields, s: usize) -> Option<ObjectFrame> {
     object::frame(m, d, m.sensor_objtype[s], usize::try_from(m.sensor_objid[s]).ok()?)
 }
 
 /// The reference frame of the sensor; `None` for the world.
-fn reference(m: &Model, d: &Fields, s: usize) -> Option<Frame> {
+fn reference(m: &Model, d: &Fields, s: usize) -> Option<ObjectFrame> {
     object::frame(m, d, m.sensor_reftype[s], usize::try_from(m.sensor_refid[s]).ok()?)
 }
 

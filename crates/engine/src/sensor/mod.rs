@@ -19,9 +19,9 @@ pub use data_layout::{CONTACT_DATA, RAY_DATA, size as data_size};
 pub use needs_search::searched_pair;
 pub(crate) use timing::{record, reset};
 
-use contact_sensor::Match;
+use contact_sensor::ContactMatch;
 use table::Read;
-pub use table::{Datatype, KINDS, Kind, SensorStage, SensorTarget, for_sensor, kind};
+pub use table::{Datatype, KINDS, SensorKind, SensorStage, SensorTarget, for_sensor, kind};
 
 use crate::geometry::Narrow;
 use crate::kinds::{disable, joint};
@@ -34,7 +34,7 @@ use std::ops::Range;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SensorScratch {
     /// Contacts that pass the filter of a sensor.
-    matches: Vec<Match>,
+    matches: Vec<ContactMatch>,
     /// Scratch for distances.
     pub narrow: Narrow,
     /// Centres (m, world frame) and radii (m) of the bounding spheres of the geoms of a body.

@@ -7,7 +7,7 @@ use crate::model::Model;
 /// The matrix of the fast implicit integrator, and its factorization. The factorization of a tree is reused while its matrix is
 /// unchanged: for slides with dampers and servos, it is the same in every step.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Factored {
+pub(crate) struct FactoredMatrix {
     of: Vec<f64>,
     /// Whether the factorization of a tree is that of the current matrix.
     is_current: Vec<bool>,
@@ -15,7 +15,7 @@ pub(crate) struct Factored {
     pub(crate) diag_inv: Vec<f64>,
 }
 
-impl Factored {
+impl FactoredMatrix {
     /// Factorizes M - h D, where `whole` is D, for the trees that are not free bodies. Returns the first degree of freedom whose
     /// pivot is not positive.
     pub(crate) fn make(&mut self, m: &Model, mass: &[f64], whole: &[f64], h: f64) -> Option<usize> {

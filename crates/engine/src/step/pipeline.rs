@@ -32,7 +32,7 @@ pub(super) enum PassPart {
 type Need = (&'static [Stage], fn(&ModelAnalysis, Stage) -> bool);
 
 /// A stage.
-pub(super) struct Row {
+pub(super) struct PipelineRow {
     pub(super) stage: Stage,
     /// The name for people, before "stage".
     pub(super) name: &'static str,
@@ -44,7 +44,7 @@ pub(super) struct Row {
     pub(super) run: &'static [(PassPart, Run)],
 }
 
-impl Row {
+impl PipelineRow {
     /// Whether the stage uses the results of another one in a scene.
     pub(super) fn uses(&self, analysis: &ModelAnalysis, of: Stage) -> bool {
         self.needs
@@ -61,8 +61,8 @@ fn reason_if(yes: bool, why: &str) -> Option<String> {
 }
 
 /// The stages, in their order.
-pub(super) const STAGES: [Row; 26] = [
-    Row {
+pub(super) const STAGES: [PipelineRow; 26] = [
+    PipelineRow {
         stage: Stage::Sleep,
         name: "sleep",
         needs: &[],
@@ -73,7 +73,7 @@ pub(super) const STAGES: [Row; 26] = [
             (PassPart::Inputs, |m, d, s| sleep::keep(m, d, &mut s.sleep)),
         ],
     },
-    Row {
+    PipelineRow {
         stage: Stage::Kinematics,
         name: "kinematics",
         needs: &[],
@@ -81,7 +81,7 @@ pub(super) const STAGES: [Row; 26] = [
         omit_reason: |_| "nothing can touch and nothing reads a pose",
         run: &[(PassPart::Positions, |m, d, s| tree_algorithms::forward_kinematics(m, d, &mut s.dynamics))],
     },
-    Row {
+    PipelineRow {
         stage: Stage::Orientations,
         name: "orientation",
         needs: &[(&[Stage::Kinematics], ALWAYS)],
@@ -89,7 +89,7 @@ pub(super) const STAGES: [Row; 26] = [
         omit_reason: |_| "nothing reads an orientation as a quaternion",
         run: &[(PassPart::Positions, |_, d, s| tree_algorithms::orientations(d, &mut s.dynamics))],
     },
-    Row {
+    PipelineRow {
         stage: Stage::GeomPoses,
         name: "geom-pose",
         needs: &[(&[Stage::Kinematics], ALWAYS)],
@@ -97,7 +97,7 @@ pub(super) const STAGES: [Row; 26] = [
         omit_reason: |_| "no contact is possible and nothing reads a geom's pose",
         run: &[(PassPart::Positions, |m, d, _| kinematics::geoms(m, d))],
     },
-    Row {
+    PipelineRow {
         stage: Stage::SitePoses,
         name: "site-pose",
         needs: &[(&[Stage::Kinematics], ALWAYS)],
@@ -108,7 +108,7 @@ pub(super) const STAGES: [Row; 26] = [
         },
         run: &[(PassPart::Positions, |m, d, _| kinematics::sites(m, d))],
     },
-    Row {
+    PipelineRow {
         stage: Stage::ComPos,
         name: "centre-of-mass",
         needs: &[(&[Stage::Kinematics], ALWAYS)],
@@ -116,7 +116,7 @@ pub(super) const STAGES: [Row; 26] = [
         omit_reason: |_| NO_SPATIAL_BODIES,
         run: &[(PassPart::Positions, |m, d, _| com::com_pos(m, d))],
     },
-    Row {
+    PipelineRow {
         stage: Stage::CameraPoses,
         name: "camera-pose",
         needs: &[(&[Stage::Orientations, Stage::ComPos], ALWAYS)],
@@ -127,7 +127,7 @@ pub(super) const STAGES: [Row; 26] = [
         },
         run: &[(PassPart::Positions, |m, d, _| calls::cameras_and_lights(m, d))],
     },
-    Row {
+    PipelineRow {
         stage: Stage::Tendon,
         name: "tendon",
         needs: &[
@@ -143,7 +143,7 @@ pub(super) const STAGES: [Row; 26] = [
         omit_reason: without_tendons,
         run: &[(PassPart::Positions, |m, d, _| calls::tendons(m, d))],
     },
-    Row {
+    PipelineRow {
         stage: Stage::MassMatrix,
         name: "mass-matrix",
         needs: &[
@@ -158,7 +158,7 @@ pub(super) const STAGES: [Row; 26] = [
         omit_reason: |_| CONSTANT_MASS,
         run: &[(PassPart::Positions, calls::mass_matrix)],
     },
-    Row {
+    PipelineRow {
         stage: Stage::Factor,
         name: "factorization",
         needs: &[],
@@ -166,7 +166,7 @@ pub(super) const STAGES: [Row; 26] = [
         omit_reason: |_| CONSTANT_MASS,
         run: &[(PassPart::Positions, calls::factor)],
     },
-    Row {
+    PipelineRow {
         stage: Stage::Collision,
         name: "collision",
         needs: &[(&[Stage::GeomPoses], ALWAYS)],
@@ -181,7 +181,7 @@ pub(super) const STAGES: [Row; 26] = [
         },
         run: &[(PassPart::Positions, calls::collide)],
     },
-    Row {
+    PipelineRow {
         stage: Stage::Constraint,
         name: "constraint",
         needs: &[
@@ -199,7 +199,7 @@ pub(super) const STAGES: [Row; 26] = [
         omit_reason: |_| NO_CONSTRAINTS,
         run: &[(PassPart::Positions, calls::make_constraints)],
     },
-    Row {
+    PipelineRow {
         stage: Stage::Transmission,
         name: "transmission",
         needs: &[
@@ -214,7 +214,7 @@ pub(super) const STAGES: [Row; 26] = [
         },
         run: &[(PassPart::Positions, |m, d, s| transmission::transmissions(m, d, &mut s.forces))],
     },
-    Row {
+    PipelineRow {
         stage: Stage::TendonVel,
         name: "tendon-velocity",
         needs: &[(&[Stage::Tendon], ALWAYS)],
@@ -222,7 +222,7 @@ pub(super) const STAGES: [Row; 26] = [
         omit_reason: without_tendons,
         run: &[(PassPart::Velocities, |m, d, _| tendon::velocities(m, d))],
     },
-    Row {
+    PipelineRow {
         stage: Stage::ActuatorVel,
         name: "actuator-velocity",
         needs: &[(&[Stage::Transmission], ALWAYS)],
@@ -230,7 +230,7 @@ pub(super) const STAGES: [Row; 26] = [
         omit_reason: |s| without_actuators(s).unwrap_or("no force depends on the velocity of an actuator"),
         run: &[(PassPart::Velocities, |m, d, _| transmission::velocities(m, d))],
     },
-    Row {
+    PipelineRow {
         stage: Stage::ComVel,
         name: "body-velocity",
         needs: &[(&[Stage::ComPos], ALWAYS)],
@@ -238,7 +238,7 @@ pub(super) const STAGES: [Row; 26] = [
         omit_reason: |_| NO_SPATIAL_BODIES,
         run: &[(PassPart::Velocities, |m, d, _| com::com_vel(m, d))],
     },
-    Row {
+    PipelineRow {
         stage: Stage::Passive,
         name: "passive-force",
         needs: &[
@@ -257,7 +257,7 @@ pub(super) const STAGES: [Row; 26] = [
         omit_reason: |_| "no joint or tendon has a spring or a damper, and bodies move in a vacuum",
         run: &[(PassPart::Velocities, |m, d, _| passive::passive(m, d))],
     },
-    Row {
+    PipelineRow {
         stage: Stage::Reference,
         name: "reference",
         needs: &[(&[Stage::ComVel], |s, _| s.constrains_bodies())],
@@ -265,7 +265,7 @@ pub(super) const STAGES: [Row; 26] = [
         omit_reason: |_| NO_CONSTRAINTS,
         run: &[(PassPart::Velocities, |m, d, s| constraint::reference(m, d, &s.constraint))],
     },
-    Row {
+    PipelineRow {
         stage: Stage::Bias,
         name: "bias-force",
         needs: &[
@@ -277,7 +277,7 @@ pub(super) const STAGES: [Row; 26] = [
         omit_reason: |_| "nothing moves",
         run: &[(PassPart::Velocities, calls::bias)],
     },
-    Row {
+    PipelineRow {
         stage: Stage::Actuation,
         name: "actuation",
         needs: &[
@@ -290,7 +290,7 @@ pub(super) const STAGES: [Row; 26] = [
         omit_reason: |s| without_actuators(s).unwrap_or("actuators are switched off"),
         run: &[(PassPart::Inputs, |m, d, s| actuation::actuation(m, d, &mut s.forces))],
     },
-    Row {
+    PipelineRow {
         stage: Stage::Acceleration,
         name: "acceleration",
         needs: &[
@@ -305,7 +305,7 @@ pub(super) const STAGES: [Row; 26] = [
         omit_reason: |_| "nothing moves",
         run: &[(PassPart::Inputs, calls::acceleration)],
     },
-    Row {
+    PipelineRow {
         stage: Stage::Solve,
         name: "solver",
         needs: &[],
@@ -313,7 +313,7 @@ pub(super) const STAGES: [Row; 26] = [
         omit_reason: |_| NO_CONSTRAINTS,
         run: &[(PassPart::Inputs, calls::solve)],
     },
-    Row {
+    PipelineRow {
         stage: Stage::SubtreeVel,
         name: "subtree-momentum",
         needs: &[(&[Stage::ComVel], ALWAYS)],
@@ -322,7 +322,7 @@ pub(super) const STAGES: [Row; 26] = [
         omit_reason: |_| "no sensor measures the momentum of a subtree",
         run: &[(PassPart::Velocities, |m, d, _| calls::subtree_velocities(m, d))],
     },
-    Row {
+    PipelineRow {
         stage: Stage::RnePost,
         name: "body-force",
         needs: &[
@@ -336,7 +336,7 @@ pub(super) const STAGES: [Row; 26] = [
         omit_reason: |_| "no sensor measures a force or an acceleration",
         run: &[(PassPart::Inputs, |m, d, _| calls::body_forces(m, d))],
     },
-    Row {
+    PipelineRow {
         stage: Stage::Sensors,
         name: "sensor",
         needs: &[
@@ -357,7 +357,7 @@ pub(super) const STAGES: [Row; 26] = [
             (PassPart::Inputs, |m, d, s| sensor::evaluate(m, d, &mut s.sensor, SensorStage::Acceleration)),
         ],
     },
-    Row {
+    PipelineRow {
         stage: Stage::Energy,
         name: "energy",
         needs: &[

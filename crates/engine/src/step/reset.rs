@@ -47,7 +47,7 @@ pub fn set_plan(m: &Model, d: &mut Fields, s: &mut StepScratch, plan: PlanTable)
     s.collision.pairs = if plan.keeps(Stage::Collision) {
         collision::pairs(m, analysis::changes(&plan))
     } else {
-        collision::Pairs::default()
+        collision::CandidatePairs::default()
     };
     if plan.algorithms != d.plan.algorithms {
         s.dynamics = dynamics::DynamicsScratch::new(m, plan.algorithms);

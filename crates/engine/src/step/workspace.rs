@@ -1,6 +1,6 @@
 //! `Workspace`: the fields of a simulation, and the scratch of the stages.
 
-use super::factored::Factored;
+use super::factored::FactoredMatrix;
 use super::metric::Metric;
 use super::sleep;
 use super::stages::{Damping, Flow, RungeKutta};
@@ -37,7 +37,7 @@ pub struct StepScratch {
     pub(crate) derivative: derivative::Work,
     pub(crate) damping: Damping,
     /// The matrix of the fast implicit integrator.
-    pub(crate) factored: Factored,
+    pub(crate) factored: FactoredMatrix,
     /// The metric of the discrete integrator.
     pub(crate) metric: Metric,
     pub(crate) rk: RungeKutta,

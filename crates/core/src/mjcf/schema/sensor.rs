@@ -61,7 +61,7 @@ const PLUGIN: &[Attr] = attributes! {
 };
 
 /// The attribute groups of a kind of sensor: those that select the measured object, and those that almost all kinds have.
-const fn groups(kind: &sensor::Kind) -> &'static [&'static [Attr]] {
+const fn groups(kind: &sensor::SensorKind) -> &'static [&'static [Attr]] {
     match kind.senses {
         SensorTarget::Nothing => &[COMMON, VALUES, TIMING],
         SensorTarget::Site => &[COMMON, VALUES, TIMING, SITE],

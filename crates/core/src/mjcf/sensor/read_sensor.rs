@@ -12,7 +12,9 @@ use crate::mjcf::spec::{List, SensorObjects, SensorSpec, SensorTiming, TendonSpe
 use crate::mjcf::text::diagnostic::{Diagnostics, shorten_name};
 use crate::mjcf::text::tree::{Node, Tree, name};
 use crate::model::Obj;
-use crate::sensor::{CONTACT_DATA, Datatype, KINDS, Kind, RAY_DATA, SensorStage, SensorTarget, data_size};
+use crate::sensor::{
+    CONTACT_DATA, Datatype, KINDS, RAY_DATA, SensorKind, SensorStage, SensorTarget, data_size,
+};
 
 /// Limit for the number of values of all sensors, including samples that are stored for delays.
 const MAX_VALUES: usize = 1 << 22;
@@ -64,7 +66,7 @@ pub(crate) fn sensors(
 }
 
 impl Context<'_> {
-    fn sensor(&mut self, number: usize, kind: &'static Kind) -> Option<SensorSpec> {
+    fn sensor(&mut self, number: usize, kind: &'static SensorKind) -> Option<SensorSpec> {
         let cutoff = self.not_negative("cutoff");
         let noise = self.not_negative("noise");
         let timing = self.timing();
@@ -190,7 +192,7 @@ impl Context<'_> {
     }
 
     /// The objects that the sensor is attached to.
-    fn objects(&mut self, kind: &Kind) -> Option<SensorObjects> {
+    fn objects(&mut self, kind: &SensorKind) -> Option<SensorObjects> {
         let attached = |obj: Obj, id: i32| SensorObjects::for_object(obj as i32, id);
         match kind.senses {
             SensorTarget::Nothing | SensorTarget::Tactile | SensorTarget::Plugin => {
@@ -304,7 +306,7 @@ impl Context<'_> {
         Some(SensorObjects::for_object(first.0, first.1).with_reference(second.0, second.1))
     }
 
-    fn check_joint(&mut self, kind: &Kind, id: i32) {
+    fn check_joint(&mut self, kind: &SensorKind, id: i32) {
         let Some((is, limited)) = self.refs.ids.joint(id) else { return };
         let (fits, needs) = match kind.senses {
             SensorTarget::BallJoint => (is == joint::BALL, "a ball joint"),
@@ -333,7 +335,7 @@ impl Context<'_> {
     }
 
     /// The integer parameters, and the number of values.
-    fn parameters(&mut self, kind: &Kind, objects: &SensorObjects) -> Option<([i32; 3], i32)> {
+    fn parameters(&mut self, kind: &SensorKind, objects: &SensorObjects) -> Option<([i32; 3], i32)> {
         match kind.senses {
             SensorTarget::Ray => {
                 let mask = self.data_fields(&RAY_DATA)?;
@@ -415,7 +417,7 @@ impl Context<'_> {
 
     /// The type of the values and the stage that computes them. A user sensor has attributes for these; other kinds have them in
     /// the table.
-    fn meaning(&mut self, kind: &Kind, dim: i32) -> (Datatype, i32) {
+    fn meaning(&mut self, kind: &SensorKind, dim: i32) -> (Datatype, i32) {
         if kind.senses != SensorTarget::User {
             return (kind.datatype, kind.when as i32);
         }

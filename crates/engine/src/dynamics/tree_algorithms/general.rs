@@ -4,7 +4,7 @@
 //! each degree of freedom, and is factorized by elimination (`mass`). The bias force is computed by recursion
 //! (`rne`).
 
-use super::{Assignment, Damped, Factors, Forces, PoseFunctions, Row};
+use super::{AlgorithmRow, Assignment, Damped, Factors, Forces, PoseFunctions};
 use crate::dynamics::kinematics::{self, Frames};
 use crate::dynamics::{DynamicsScratch, mass as rows, rne};
 use crate::math::Vec3;
@@ -12,7 +12,7 @@ use crate::model::plan::PlanFlag;
 use crate::model::{Fields, Model};
 use std::ops::Range;
 
-pub(super) const ROW: Row = Row {
+pub(super) const ROW: AlgorithmRow = AlgorithmRow {
     name: "general",
     covers: |_, _| true,
     copies: &kinematics::FIELDS,

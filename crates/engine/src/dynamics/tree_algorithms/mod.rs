@@ -28,7 +28,7 @@ use crate::model::{Fields, Model};
 /// Generates the table from its rows. Each row is a module with `ROW` and `Trees`.
 macro_rules! table {
     ($($algorithm:ident)*) => {
-        static TABLE: [Row; [$(stringify!($algorithm)),*].len()] = [$($algorithm::ROW),*];
+        static TABLE: [AlgorithmRow; [$(stringify!($algorithm)),*].len()] = [$($algorithm::ROW),*];
 
         /// State of each algorithm, and which algorithms have trees.
         #[derive(Clone, Debug, Default, PartialEq)]
@@ -72,7 +72,7 @@ table! {
 pub(crate) use diagonal_inertia::gyroscopic_jacobian;
 
 /// An algorithm.
-struct Row {
+struct AlgorithmRow {
     /// Its name in `labspec bench`.
     name: &'static str,
     /// Whether it supports a tree.
@@ -87,7 +87,7 @@ struct Row {
 }
 
 /// An algorithm that computes nothing: the base of rows, which set what differs.
-const NOTHING: Row = Row {
+const NOTHING: AlgorithmRow = AlgorithmRow {
     name: "",
     covers: |_, _| false,
     copies: &[],
@@ -187,7 +187,12 @@ const GENERAL: usize = TABLE.len() - 1;
 const _: () = assert!(TABLE.len() <= u8::BITS as usize);
 
 /// The row that a tree uses for the part that `computes` tests.
-fn row_of(m: &Model, algorithms: TreeAlgorithms, tree: usize, computes: impl Fn(&Row) -> bool) -> usize {
+fn row_of(
+    m: &Model,
+    algorithms: TreeAlgorithms,
+    tree: usize,
+    computes: impl Fn(&AlgorithmRow) -> bool,
+) -> usize {
     let takes = |i: &usize| {
         algorithms.has(TreeAlgorithm(*i as u8))
             && !m.tree_dofs(tree).is_empty()

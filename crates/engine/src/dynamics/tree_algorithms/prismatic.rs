@@ -5,7 +5,7 @@
 //! -m_i (a_i · g). M changes only if masses change, or if the body that carries the tree rotates. Otherwise M and its
 //! factorization are reused.
 
-use super::{Assignment, Damped, Factors, Forces, NOTHING, Row};
+use super::{AlgorithmRow, Assignment, Damped, Factors, Forces, NOTHING};
 use crate::dynamics::{DynamicsScratch, mass as rows_of_mass};
 use crate::kinds::joint;
 use crate::math::*;
@@ -13,7 +13,7 @@ use crate::model::reflect::model as fields_of;
 use crate::model::{Fields, Model};
 use std::ops::Range;
 
-pub(super) const ROW: Row = Row {
+pub(super) const ROW: AlgorithmRow = AlgorithmRow {
     name: "prismatic",
     covers,
     copies: &[
@@ -57,7 +57,7 @@ pub(super) struct Trees {
     /// The mass of each body, and that of each body with its descendants.
     masses: Vec<f64>,
     carried: Vec<f64>,
-    factored: Vec<Factored>,
+    factored: Vec<FactoredTree>,
 }
 
 /// A slide.
@@ -75,7 +75,7 @@ struct Slide {
 
 /// A tree, and its factorization with the M that it was computed from.
 #[derive(Clone, Debug, Default, PartialEq)]
-struct Factored {
+struct FactoredTree {
     dofs: Range<usize>,
     /// The range of its rows of M.
     rows: Range<usize>,
@@ -94,7 +94,7 @@ impl Trees {
         let slides = assignment.forces.iter().flat_map(|&tree| m.tree_dofs(tree)).map(slide).collect();
         let tree = |&tree: &usize| {
             let dofs = m.tree_dofs(tree);
-            Factored { rows: rows_of_mass::rows_of(m, dofs.clone()), dofs, ..Factored::default() }
+            FactoredTree { rows: rows_of_mass::rows_of(m, dofs.clone()), dofs, ..FactoredTree::default() }
         };
         let factored = assignment.factors.iter().map(tree).collect();
         let mut trees = Trees { slides, factored, ..Trees::default() };

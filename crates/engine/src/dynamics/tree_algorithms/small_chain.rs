@@ -3,14 +3,14 @@
 //! Their rows of M form a packed lower triangle, which is factorized and solved with sizes known at compile time
 //! (`triangle`).
 
-use super::{Assignment, Damped, Factors, NOTHING, Row};
+use super::{AlgorithmRow, Assignment, Damped, Factors, NOTHING};
 use crate::dynamics::DynamicsScratch;
 use crate::dynamics::triangle::{
     by_size, factor as factor_triangle, part, part_mut, size_before, solve as solve_triangle, solve_at,
 };
 use crate::model::{Fields, Model};
 
-pub(super) const ROW: Row = Row {
+pub(super) const ROW: AlgorithmRow = AlgorithmRow {
     name: "small_chain",
     covers,
     factors: Some(Factors {

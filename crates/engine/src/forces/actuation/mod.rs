@@ -210,7 +210,7 @@ fn changing_gain(m: &Model, d: &Fields, i: usize) -> f64 {
     let (p, o) = (prm(&m.actuator_gainprm, i), m.actuator_outadr[i] as usize);
     match m.actuator_gaintype[i] {
         gaintype::AFFINE => affine(p, d.actuator_length[o], d.actuator_velocity[o]),
-        gaintype::MUSCLE => muscle::gain(p, &muscle::State::new(m, d, o, p)),
+        gaintype::MUSCLE => muscle::gain(p, &muscle::MuscleState::new(m, d, o, p)),
         _ => p[0],
     }
 }
@@ -228,7 +228,7 @@ fn some_bias(m: &Model, d: &Fields, i: usize) -> f64 {
     let (p, o) = (prm(&m.actuator_biasprm, i), m.actuator_outadr[i] as usize);
     match m.actuator_biastype[i] {
         biastype::AFFINE => affine(p, d.actuator_length[o], d.actuator_velocity[o]),
-        biastype::MUSCLE => muscle::bias(p, &muscle::State::new(m, d, o, p)),
+        biastype::MUSCLE => muscle::bias(p, &muscle::MuscleState::new(m, d, o, p)),
         biastype::DCMOTOR => motor::back_emf(m, d, i),
         _ => 0.0,
     }

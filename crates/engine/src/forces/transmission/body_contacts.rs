@@ -1,6 +1,6 @@
 //! Adhesion: a force between a body and all bodies that it has contacts with.
 
-use super::Rows;
+use super::MomentRows;
 use crate::dynamics::jacobian;
 use crate::forces::ForceScratch;
 use crate::kinds::exclude;
@@ -8,7 +8,7 @@ use crate::model::{Fields, Model};
 
 /// The moment of an adhesion actuator: the mean separation direction over the contacts of body `b`, with the sign of an
 /// attractive force. The length is zero.
-pub(super) fn adhesion(m: &Model, d: &Fields, b: usize, w: &mut ForceScratch, out: &mut Rows) -> f64 {
+pub(super) fn adhesion(m: &Model, d: &Fields, b: usize, w: &mut ForceScratch, out: &mut MomentRows) -> f64 {
     let ForceScratch { moment: dense, columns, .. } = w;
     dense.fill(0.0);
     let mut count = 0;

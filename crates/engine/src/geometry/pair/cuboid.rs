@@ -34,7 +34,7 @@ pub(super) fn capsule_box(capsule: &Shape, cuboid: &Shape, margin: f64, out: &mu
     }
     let half = mat_t_mul_vec(&cuboid.mat, scale(capsule.axis(2), half_length));
     let segment = Segment { centre: cuboid.local(capsule.pos), half };
-    let axis = Axis { segment, size: cuboid.size };
+    let axis = CapsuleAxis { segment, size: cuboid.size };
     let [from, to] = axis.nearest();
     let distance = norm(axis.offset_from_box(from));
     if distance <= axis.rounding() {
@@ -92,12 +92,12 @@ fn nearest_face(p: Vec3, size: Vec3) -> (Vec3, f64) {
 }
 
 /// The axis of a capsule in the frame of a box with half sizes `size`.
-struct Axis {
+struct CapsuleAxis {
     segment: Segment,
     size: Vec3,
 }
 
-impl Axis {
+impl CapsuleAxis {
     /// Vector from the nearest point of the box to the point `t` of the axis.
     #[cfg_attr(not(feature = "small"), inline(always))]
     fn offset_from_box(&self, t: f64) -> Vec3 {

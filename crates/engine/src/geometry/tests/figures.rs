@@ -9,7 +9,7 @@ const SAME: f64 = 1e-9;
 
 /// Statistics of the pairs of two types.
 #[derive(Default)]
-struct Row {
+struct FigureRow {
     cases: usize,
     touching: usize,
     number: usize,
@@ -24,7 +24,7 @@ struct Row {
 
 /// Statistics by pair of types.
 #[derive(Default)]
-pub(super) struct Figures(BTreeMap<String, Row>);
+pub(super) struct Figures(BTreeMap<String, FigureRow>);
 
 impl Figures {
     /// Adds a case with contacts of ten numbers each: distance, position, normal, first tangent. Both lists are in
@@ -57,7 +57,7 @@ impl Figures {
              |---|---:|---:|---:|---:|---:|\n",
         );
         for (pair, r) in &self.0 {
-            let Row { cases, touching, number, same, depth, .. } = r;
+            let FigureRow { cases, touching, number, same, depth, .. } = r;
             let _ = writeln!(text, "| {pair} | {cases} | {touching} | {number} | {same} | {depth:.0e} |");
         }
         text
@@ -67,7 +67,7 @@ impl Figures {
     pub(super) fn distance_table(&self) -> String {
         let mut text =
             String::from("| pair | cases | within 1e-9 | largest difference, m |\n|---|---:|---:|---:|\n");
-        for (pair, Row { distances, near, distance, .. }) in &self.0 {
+        for (pair, FigureRow { distances, near, distance, .. }) in &self.0 {
             let _ = writeln!(text, "| {pair} | {distances} | {near} | {distance:.0e} |");
         }
         text

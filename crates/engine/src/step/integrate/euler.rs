@@ -1,6 +1,6 @@
 //! The semi-implicit Euler method.
 
-use super::{Slopes, advance, advance_along};
+use super::{RateOverrides, advance, advance_along};
 use crate::model::{Fields, Model};
 use crate::step::damping::{damp, damps};
 use crate::step::workspace::StepScratch;
@@ -12,7 +12,7 @@ pub(super) fn euler(m: &Model, d: &mut Fields, s: &mut StepScratch) {
     if damps(m, d) {
         damped(m, d, s);
     } else {
-        advance(m, d, s, Slopes::default());
+        advance(m, d, s, RateOverrides::default());
     }
 }
 

@@ -8,7 +8,7 @@
 //!
 //! The state is one list: u and v, each of length nv, and the activations.
 
-use super::{Slopes, advance, integrate_pos};
+use super::{RateOverrides, advance, integrate_pos};
 use crate::forces::actuation;
 use crate::kinds::joint;
 use crate::math::*;
@@ -128,7 +128,12 @@ pub(super) fn finish(m: &Model, d: &mut Fields, s: &mut StepScratch, mut w: Flow
         m,
         d,
         s,
-        Slopes { reached: Some(act), acceleration: Some(v), velocity: Some(u), ..Slopes::default() },
+        RateOverrides {
+            reached: Some(act),
+            acceleration: Some(v),
+            velocity: Some(u),
+            ..RateOverrides::default()
+        },
     );
     s.flow = w;
 }

@@ -49,14 +49,14 @@ pub(crate) fn integrate_once(m: &Model, d: &mut Fields, s: &mut StepScratch) {
         integrator::IMPLICIT => implicit::implicit(m, d, s),
         integrator::IMPLICITFAST => implicit::implicitfast(m, d, s),
         // The acceleration already belongs to the end of the step.
-        integrator::DISCRETE => advance(m, d, s, Slopes::default()),
+        integrator::DISCRETE => advance(m, d, s, RateOverrides::default()),
         _ => euler::euler(m, d, s),
     }
 }
 
 /// Replacements for the rates that an integrator uses. `None` means the field of the data.
 #[derive(Default)]
-struct Slopes<'a> {
+struct RateOverrides<'a> {
     activation: Option<&'a mut Vec<f64>>,
     /// Activations at the end of the step, if they are known.
     reached: Option<&'a [f64]>,
@@ -67,9 +67,9 @@ struct Slopes<'a> {
 /// The last part of every integrator, in MuJoCo's order: histories, activations, sleep, velocities, positions with the
 /// new velocities, time, and the acceleration that warm-starts the next solver.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn advance(m: &Model, d: &mut Fields, s: &mut StepScratch, slopes: Slopes) {
+fn advance(m: &Model, d: &mut Fields, s: &mut StepScratch, slopes: RateOverrides) {
     let h = m.opt.timestep;
-    let Slopes { activation, reached, acceleration, velocity } = slopes;
+    let RateOverrides { activation, reached, acceleration, velocity } = slopes;
     if m.nhistory > 0 {
         record(m, d, s);
     }
@@ -97,7 +97,7 @@ fn advance(m: &Model, d: &mut Fields, s: &mut StepScratch, slopes: Slopes) {
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn advance_along(m: &Model, d: &mut Fields, s: &mut StepScratch) {
     let acceleration = std::mem::take(&mut s.damping.qacc);
-    advance(m, d, s, Slopes { acceleration: Some(&acceleration), ..Slopes::default() });
+    advance(m, d, s, RateOverrides { acceleration: Some(&acceleration), ..RateOverrides::default() });
     s.damping.qacc = acceleration;
 }
 

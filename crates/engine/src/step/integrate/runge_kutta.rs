@@ -1,7 +1,7 @@
 //! The classical Runge–Kutta method of fourth order (Kutta 1901). The velocities of the stages are averaged and applied in
 //! one step on the manifold.
 
-use super::{Slopes, advance, integrate_pos};
+use super::{RateOverrides, advance, integrate_pos};
 use crate::model::{Fields, Model};
 use crate::step::forward;
 use crate::step::workspace::StepScratch;
@@ -41,11 +41,11 @@ pub(super) fn rk4(m: &Model, d: &mut Fields, s: &mut StepScratch) {
         m,
         d,
         s,
-        Slopes {
+        RateOverrides {
             activation: Some(&mut w.dact),
             acceleration: Some(&w.dvel),
             velocity: Some(&w.dpos),
-            ..Slopes::default()
+            ..RateOverrides::default()
         },
     );
     s.rk = w;
