@@ -10,7 +10,7 @@ mod sim;
 use std::sync::LazyLock;
 
 use super::displayed::LABELS;
-use super::handle::{self, Side};
+use super::handle::{self, FieldOwner};
 use super::units;
 use labspec_core::Obj;
 use labspec_core::reflect::{self, FieldId, Kind, Object, Stage, data, option};
@@ -205,7 +205,7 @@ fn info(f: &Function) -> FunctionInfo {
         Arg::Text => Param::Text,
         Arg::Numbers => Param::Numbers,
         Arg::Any => Param::Any,
-        Arg::Name(kind) => Param::Name(handle::collection(Side::Data, *kind)),
+        Arg::Name(kind) => Param::Name(handle::collection(FieldOwner::Data, *kind)),
         Arg::Label => Param::Name(LABELS),
         Arg::Lazy => Param::Lazy,
     };

@@ -6,7 +6,7 @@ use super::elements;
 use super::enums::ENUMS;
 use super::field_entry::{field, member_name, noun, owner, short_name};
 use super::functions::{self, FunctionPlace, OBJECTS, TABLE};
-use super::handle::{self, HandleTarget, KINDS, Side};
+use super::handle::{self, FieldOwner, HandleTarget, KINDS};
 use super::host_terms::HOST_TERMS;
 use super::measures;
 use labspec_core::reflect::{self, FieldId, Object, data, option};
@@ -89,13 +89,13 @@ impl ModelNames<'_> {
     /// The fields of one object, with their names in the object.
     fn rows(
         &self,
-        side: Side,
+        side: FieldOwner,
         kind: Obj,
         index: usize,
     ) -> impl Iterator<Item = (String, FieldId, usize, usize)> + '_ {
         let objects = match side {
-            Side::Model => Object::Model,
-            Side::Data => Object::Data,
+            FieldOwner::Model => Object::Model,
+            FieldOwner::Data => Object::Data,
         };
         reflect::fields().filter(move |f| f.info().object == objects).filter_map(move |f| {
             let (first, count) = elements::row(self.model, f, kind, index)?;
@@ -103,7 +103,7 @@ impl ModelNames<'_> {
         })
     }
 
-    fn named_member(&self, side: Side, kind: Obj, index: usize, name: &str) -> Option<Entry> {
+    fn named_member(&self, side: FieldOwner, kind: Obj, index: usize, name: &str) -> Option<Entry> {
         match name {
             "id" => return Some(Entry::Constant(Value::Number(index as f64))),
             "name" => {
@@ -124,8 +124,8 @@ impl ModelNames<'_> {
     }
 
     /// An object as an author writes it: `data.joint("hinge")`.
-    fn path(&self, side: Side, kind: Obj, index: usize) -> String {
-        let holder = if side == Side::Data { "data" } else { "model" };
+    fn path(&self, side: FieldOwner, kind: Obj, index: usize) -> String {
+        let holder = if side == FieldOwner::Data { "data" } else { "model" };
         let name = self.model.names.of_kind(kind).get(index).map_or("", String::as_str);
         format!("{holder}.{}(\"{name}\")", noun(kind))
     }
@@ -185,8 +185,8 @@ impl Schema for ModelNames<'_> {
                     }
                 }
                 let side = match of {
-                    Object::Model => Some(Side::Model),
-                    Object::Data => Some(Side::Data),
+                    Object::Model => Some(FieldOwner::Model),
+                    Object::Data => Some(FieldOwner::Data),
                     _ => None,
                 };
                 // A field with this name takes precedence, as in `data.contact`.
@@ -329,8 +329,8 @@ impl Schema for ModelNames<'_> {
     fn named_element(&self, FieldKey(f): FieldKey, index: usize) -> Option<String> {
         let field = FieldId::new(f as usize)?;
         let side = match field.info().object {
-            Object::Model => Side::Model,
-            Object::Data => Side::Data,
+            Object::Model => FieldOwner::Model,
+            Object::Data => FieldOwner::Data,
             _ => return None,
         };
         let (kind, object) = elements::owner(self.model, field, index)?;
@@ -339,7 +339,7 @@ impl Schema for ModelNames<'_> {
         let plain = |n: &&String| !n.is_empty() && !n.contains(['\'', '\\']) && !n.contains(char::is_control);
         let name = self.model.names.of_kind(kind).get(object).filter(plain)?;
         let short = member_name(field.info().object, field.info().name, kind);
-        let holder = if side == Side::Data { "data" } else { "model" };
+        let holder = if side == FieldOwner::Data { "data" } else { "model" };
         // Single quotes need no escapes in the JSON of a lab.
         Some(format!("{holder}.{}('{name}').{short}[{}]", noun(kind), index - first))
     }
@@ -348,7 +348,7 @@ impl Schema for ModelNames<'_> {
         let (f, kind) = TABLE.get(i as usize)?.gives?;
         let Some(HandleTarget::Named(_, of, index)) = handle::decode(object) else { return None };
         let (first, count) = elements::row(self.model, f, kind, index).filter(|_| of == kind)?;
-        let path = format!("{}.{}", self.path(Side::Data, kind, index), short_name(f.info().name));
+        let path = format!("{}.{}", self.path(FieldOwner::Data, kind, index), short_name(f.info().name));
         Some(field(f, path, first, vec![Some(count)], format!("a position has {count} of these")))
     }
 

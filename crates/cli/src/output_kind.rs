@@ -171,7 +171,7 @@ fn is_own_picture(_: &Path) -> bool {
 /// measurements are not such a table.
 fn is_table(place: &Path) -> bool {
     let Ok(file) = File::open(place) else { return false };
-    let mut rows = Rows { bytes: BufReader::new(file).bytes(), most: MAX_ROW };
+    let mut rows = CsvRows { bytes: BufReader::new(file).bytes(), most: MAX_ROW };
     let Some(Some(columns)) = rows.next_row() else { return false };
     let timed = columns.first().is_some_and(|name| name == "time")
         && columns.iter().skip(1).all(|name| is_column(name));
@@ -215,12 +215,12 @@ fn is_name(cell: &str) -> bool {
 const MAX_ROW: usize = 64 << 20;
 
 /// Iterates over the rows of comma-separated values.
-struct Rows<I> {
+struct CsvRows<I> {
     bytes: I,
     most: usize,
 }
 
-impl<I: Iterator<Item = std::io::Result<u8>>> Rows<I> {
+impl<I: Iterator<Item = std::io::Result<u8>>> CsvRows<I> {
     /// Returns the cells of the next row, `None` at the end, or `Some(None)` if the text is not comma-separated values.
     fn next_row(&mut self) -> Option<Option<Vec<String>>> {
         let (mut cells, mut cell) = (Vec::new(), Vec::new());

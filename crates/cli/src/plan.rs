@@ -1,6 +1,6 @@
 //! `labspec plan`.
 
-use super::common::{Failure, ModelOptions, Outcome, interrupted};
+use super::common::{CommandOutcome, Failure, ModelOptions, interrupted};
 use super::report_json::print_report;
 use super::stdio::print;
 use super::target;
@@ -38,7 +38,7 @@ enum PlanFormat {
     Json,
 }
 
-pub(super) fn plan(a: &PlanArguments) -> Result<Outcome, Failure> {
+pub(super) fn plan(a: &PlanArguments) -> Result<CommandOutcome, Failure> {
     let target = target::open(&a.lab, &a.models)?;
     let options = PlanOptions { read: a.read.clone(), run: !a.no_run };
     let report = labspec_numerics::profile::plan(&target.lab, &target.model, &target.programs, &options)
@@ -47,7 +47,7 @@ pub(super) fn plan(a: &PlanArguments) -> Result<Outcome, Failure> {
         PlanFormat::Human => print(&human(&report))?,
         PlanFormat::Json => print_report("plan", &machine(&report))?,
     }
-    Ok(Outcome::Clean)
+    Ok(CommandOutcome::Clean)
 }
 
 fn names(set: &FieldSet) -> Vec<&'static str> {
@@ -233,21 +233,21 @@ fn readers(report: &PlanReport, text: &mut String) {
 struct PlanOutput<'a> {
     reads: Vec<&'static str>,
     writes: Vec<&'static str>,
-    stages: Vec<Stage<'a>>,
+    stages: Vec<PlanStageRow<'a>>,
     step: Option<Step>,
-    pairs: Pairs<'a>,
+    pairs: PairRow<'a>,
     sensors: &'a [SensorRow],
-    solver: Solver<'a>,
+    solver: SolverRow<'a>,
     integrators: &'a [EngineOption],
     #[serde(rename = "ways")]
-    tree_algorithms: Vec<TreeAlgorithm>,
-    readers: Vec<Reader<'a>>,
+    tree_algorithms: Vec<TreeAlgorithmRow>,
+    readers: Vec<ReaderRow<'a>>,
 }
 
 /// A stage: its share of a step, its time in ns, its work in units of the engine.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
-struct Stage<'a> {
+struct PlanStageRow<'a> {
     stage: String,
     keep: bool,
     reason: &'a str,
@@ -267,13 +267,13 @@ struct Step {
     high_ns: f64,
     full_ns: f64,
     work: f64,
-    integrator: Cost,
-    controller: Option<Cost>,
+    integrator: CostRow,
+    controller: Option<CostRow>,
 }
 
 /// A share of a step, and the time in ns.
 #[derive(Serialize)]
-struct Cost {
+struct CostRow {
     share: f64,
     ns: f64,
     /// When the lab's controller runs.
@@ -283,7 +283,7 @@ struct Cost {
 
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
-struct Pairs<'a> {
+struct PairRow<'a> {
     all: usize,
     can_touch: usize,
     tests: Vec<SearchTest<'a>>,
@@ -314,7 +314,7 @@ struct MeanAndMaximum {
 }
 
 #[derive(Serialize)]
-struct Solver<'a> {
+struct SolverRow<'a> {
     cone: &'static str,
     methods: &'a [EngineOption],
     rows: Option<MeanAndMaximum>,
@@ -323,7 +323,7 @@ struct Solver<'a> {
 
 /// The number of trees that an algorithm computes.
 #[derive(Serialize)]
-struct TreeAlgorithm {
+struct TreeAlgorithmRow {
     name: &'static str,
     places: usize,
     forces: usize,
@@ -332,25 +332,25 @@ struct TreeAlgorithm {
 
 /// An additional reader: the additional time of a step in ns, and as a share of it.
 #[derive(Serialize)]
-struct Reader<'a> {
+struct ReaderRow<'a> {
     read: &'a str,
     joins: Vec<String>,
     ns: Option<f64>,
     share: Option<f64>,
 }
 
-fn cost(cost: StageCost, reason: Option<&'static str>) -> Cost {
-    Cost { share: cost.share, ns: cost.ns, reason }
+fn cost(cost: StageCost, reason: Option<&'static str>) -> CostRow {
+    CostRow { share: cost.share, ns: cost.ns, reason }
 }
 
 fn mean_and_maximum([mean, most]: [f64; 2]) -> MeanAndMaximum {
     MeanAndMaximum { mean, most }
 }
 
-fn pair_row(of: &PairSummary) -> Pairs<'_> {
+fn pair_row(of: &PairSummary) -> PairRow<'_> {
     let tests = of.tests.iter();
     let excluded = of.excluded.iter();
-    Pairs {
+    PairRow {
         all: of.all,
         can_touch: of.can_touch,
         tests: tests
@@ -363,7 +363,7 @@ fn pair_row(of: &PairSummary) -> Pairs<'_> {
 }
 
 fn machine(of: &PlanReport) -> PlanOutput<'_> {
-    let stages = of.rows.iter().map(|r| Stage {
+    let stages = of.rows.iter().map(|r| PlanStageRow {
         stage: name(r.stage),
         keep: r.keep,
         reason: &r.reason,
@@ -384,9 +384,9 @@ fn machine(of: &PlanReport) -> PlanOutput<'_> {
     });
     let tree_algorithms = of.tree_algorithms.iter().map(|w| {
         let [places, forces, accelerations] = w.trees;
-        TreeAlgorithm { name: w.name, places, forces, accelerations }
+        TreeAlgorithmRow { name: w.name, places, forces, accelerations }
     });
-    let readers = of.readers.iter().map(|r| Reader {
+    let readers = of.readers.iter().map(|r| ReaderRow {
         read: &r.text,
         joins: r.joins.iter().map(|s| name(*s)).collect(),
         ns: r.cost,
@@ -400,7 +400,7 @@ fn machine(of: &PlanReport) -> PlanOutput<'_> {
         step,
         pairs: pair_row(&of.pairs),
         sensors: &of.sensors,
-        solver: Solver {
+        solver: SolverRow {
             cone: of.cone,
             methods: &of.solvers,
             rows: seen.map(|s| mean_and_maximum(s.rows)),

@@ -31,7 +31,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// A file with everything that its check needs.
-struct Job {
+struct CheckJob {
     file: ListedFile,
     task: FileTask,
     policy: Policy,
@@ -84,12 +84,12 @@ fn plan_jobs(
     files: Vec<ListedFile>,
     hash: Hash,
     policies: &mut Policies,
-) -> Result<(Vec<Job>, Vec<Models>), Failure> {
+) -> Result<(Vec<CheckJob>, Vec<Models>), Failure> {
     let (tasks, models) = plan_tasks(request, &files, hash)?;
     *policies = Policies::new(request.policy)?;
     let jobs = files.into_iter().zip(tasks).map(|(file, task)| {
         let policy = policies.policy_for(&file.0)?;
-        Ok(Job { file, task, policy })
+        Ok(CheckJob { file, task, policy })
     });
     Ok((jobs.collect::<Result<_, Failure>>()?, models))
 }
@@ -101,7 +101,7 @@ fn plan_jobs(
 fn check_files(
     request: &CheckRequest<'_>,
     cache: &Cache,
-    jobs: &[Job],
+    jobs: &[CheckJob],
     models: &[Models],
 ) -> Result<Vec<FileOutcome>, Failure> {
     let printer = OrderedPrinter::new(request.progress);
@@ -143,7 +143,7 @@ fn findings_text(outcome: &FileOutcome, color: bool) -> String {
 /// No file could be read.
 fn collect_outcomes(
     request: &CheckRequest<'_>,
-    jobs: &[Job],
+    jobs: &[CheckJob],
     outcomes: Vec<FileOutcome>,
     problems: Vec<UnreadFile>,
 ) -> Result<(CourseResults, FileOutcomes), Failure> {
@@ -152,7 +152,7 @@ fn collect_outcomes(
     let mut files = FileOutcomes::default();
     let mut refused: Vec<UnreadFile> = problems;
     let mut readable = 0;
-    for (Job { file: (path, _), .. }, outcome) in jobs.iter().zip(outcomes) {
+    for (CheckJob { file: (path, _), .. }, outcome) in jobs.iter().zip(outcomes) {
         results.dependencies.insert(path.clone());
         readable += usize::from(!matches!(outcome, FileOutcome::Refused(_)));
         match outcome {
@@ -190,7 +190,7 @@ fn collect_outcomes(
 /// files on which they depend.
 fn add_course_findings(
     request: &CheckRequest<'_>,
-    jobs: &[Job],
+    jobs: &[CheckJob],
     models: &mut [Models],
     results: &mut CourseResults,
 ) {

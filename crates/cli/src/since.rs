@@ -2,7 +2,7 @@
 //! models that changed with them.
 
 use super::report_json::NonFinite;
-use super::reproduction::{ClaimRecord, LessonRecord, Record, SettingsRecord};
+use super::reproduction::{ClaimRecord, LessonRecord, ReproductionRecord, SettingsRecord};
 use labspec::report::printable;
 use labspec::verify::significant;
 use serde::Serialize;
@@ -36,7 +36,7 @@ struct ChangedValue {
 }
 
 /// All differences, in the order of the files.
-pub(super) fn changes(before: &Record, now: &Record) -> Vec<LessonChange> {
+pub(super) fn changes(before: &ReproductionRecord, now: &ReproductionRecord) -> Vec<LessonChange> {
     let change = |file: &str, owner: &str, effects: Vec<ChangedValue>, causes: Vec<ChangedValue>| {
         LessonChange { file: file.into(), owner: owner.into(), effects, causes }
     };

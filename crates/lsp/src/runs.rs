@@ -24,14 +24,14 @@ pub(super) struct FinishedJob {
 
 /// A check in progress.
 #[derive(Debug)]
-pub(super) struct Job {
+pub(super) struct RunningCheck {
     /// A consecutive number, assigned by the caller.
     pub(super) number: u64,
     pub(super) uri: String,
     stop: Arc<AtomicBool>,
 }
 
-impl Job {
+impl RunningCheck {
     /// Starts a check of a text with all its runs. `done` is called at the end, unless the check was cancelled.
     pub(super) fn start(
         number: u64,
@@ -40,7 +40,7 @@ impl Job {
         (file, path): (SourceFile, PathBuf),
         (models, sources): (Arc<Models>, Sources),
         done: impl FnOnce(FinishedJob) + Send + 'static,
-    ) -> Option<Job> {
+    ) -> Option<RunningCheck> {
         let (stop, uri) = (Arc::new(AtomicBool::new(false)), uri.to_string());
         let (asked, of) = (stop.clone(), uri.clone());
         let work = move || {
@@ -54,7 +54,7 @@ impl Job {
             }
         };
         threads::checking().spawn(work).ok()?;
-        Some(Job { number, uri, stop })
+        Some(RunningCheck { number, uri, stop })
     }
 
     /// Cancels the check.

@@ -1,6 +1,6 @@
 //! The prose of a lesson as HTML: Markdown without its fences, in self-contained groups.
 
-use crate::html::{Addresses, OpenElements};
+use crate::html::{Addresses, AuthorElements};
 use crate::marks::TextMark;
 use crate::masked::{Masked, PLACEHOLDER};
 use crate::text::{escape, slug};
@@ -92,7 +92,7 @@ pub(crate) fn render(context: &mut RenderContext<'_>) -> Vec<Group> {
         around: context,
         events: Vec::new(),
         groups: Vec::new(),
-        open: OpenElements::default(),
+        open: AuthorElements::default(),
         bases: Vec::new(),
         ends: Vec::new(),
         heading: 0,
@@ -138,7 +138,7 @@ struct Renderer<'r, 's> {
     around: &'r mut RenderContext<'s>,
     events: Vec<Event<'r>>,
     groups: Vec<Group>,
-    open: OpenElements,
+    open: AuthorElements,
     /// For each open block of Markdown, the author's elements that were open before it.
     bases: Vec<usize>,
     /// For each open link or image, the end tag that replaces its own.

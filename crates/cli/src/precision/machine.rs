@@ -70,7 +70,7 @@ struct PrecisionReport<'a> {
 /// A setting with the errors of each trace. `work` is in units of the engine.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
-struct RunRow<'a> {
+struct PrecisionRunRow<'a> {
     integrator: &'static str,
     timestep: f64,
     solver: Option<String>,
@@ -184,7 +184,7 @@ fn event_row(event: &Event) -> Map<String, Value> {
 fn run_row(row: &PrecisionRow, report: &PrecisionResults) -> Map<String, Value> {
     let at_most = row.events.iter().zip(&report.events).map(|(off, event)| *off <= event.uncertain);
     let of = |f: fn(&Errors) -> Option<f64>| row.errors.iter().map(f).collect::<Vec<_>>();
-    let row = RunRow {
+    let row = PrecisionRunRow {
         integrator: row.setting.integrator.name,
         timestep: row.setting.timestep,
         solver: row.setting.solver.map(|s| s.name()),

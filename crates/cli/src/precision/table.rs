@@ -15,7 +15,7 @@ pub(super) fn setting(row: &PrecisionRow) -> String {
 }
 
 /// A column of the table: its meaning, and a cell for each row.
-struct Column {
+struct TableColumn {
     legend: String,
     cells: Vec<String>,
 }
@@ -64,11 +64,14 @@ pub(super) fn table(report: &PrecisionResults, text: &mut String) {
     );
 }
 
-fn columns(report: &PrecisionResults) -> Vec<Column> {
-    let mut list: Vec<Column> = Vec::new();
+fn columns(report: &PrecisionResults) -> Vec<TableColumn> {
+    let mut list: Vec<TableColumn> = Vec::new();
     for (i, target) in report.targets.iter().enumerate().filter(|(_, t)| !t.blank) {
         let of = |row: &PrecisionRow| row.errors.get(i).map_or("–".into(), |e| error(e, target));
-        list.push(Column { legend: describe_truth(target), cells: report.rows.iter().map(of).collect() });
+        list.push(TableColumn {
+            legend: describe_truth(target),
+            cells: report.rows.iter().map(of).collect(),
+        });
     }
     for (k, event) in report.events.iter().enumerate().filter(|(_, e)| e.time.is_finite()) {
         let legend = format!(
@@ -80,7 +83,7 @@ fn columns(report: &PrecisionResults) -> Vec<Column> {
         let of = |row: &PrecisionRow| {
             error_or_doubt(row.events.get(k).copied().unwrap_or(f64::NAN), event.uncertain)
         };
-        list.push(Column { legend, cells: report.rows.iter().map(of).collect() });
+        list.push(TableColumn { legend, cells: report.rows.iter().map(of).collect() });
     }
     let mut keeps = |size: Option<f64>, what: &str, unit: &str, of: fn(&PrecisionRow) -> Option<f64>| {
         if let Some(size) = size {
@@ -89,7 +92,7 @@ fn columns(report: &PrecisionResults) -> Vec<Column> {
                 significant(size)
             );
             let change = |r: &PrecisionRow| error_or_doubt(of(r).unwrap_or(f64::NAN), ROUNDING * size);
-            list.push(Column { legend, cells: report.rows.iter().map(change).collect() });
+            list.push(TableColumn { legend, cells: report.rows.iter().map(change).collect() });
         }
     };
     keeps(report.energy, "energy", "J", |r| r.energy);
@@ -103,7 +106,7 @@ fn columns(report: &PrecisionResults) -> Vec<Column> {
             cell(uncertainty)
         );
         let of = |r: &PrecisionRow| error_or_doubt((r.penetration - report.penetration).abs(), uncertainty);
-        list.push(Column { legend, cells: report.rows.iter().map(of).collect() });
+        list.push(TableColumn { legend, cells: report.rows.iter().map(of).collect() });
     }
     list
 }

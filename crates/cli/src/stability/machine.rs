@@ -4,7 +4,7 @@ use super::super::report_json::{NonFinite, nonfinite, with_nonfinite};
 use super::describe_skipped;
 use labspec::bind::Programs;
 use labspec::report::key;
-use labspec::stress::{Action, Fault, Interaction, Kind};
+use labspec::stress::{Action, Fault, Interaction, InteractionKind};
 use labspec_numerics::stability::{
     DivergenceOfStarts, MapCell, Margin, Sensitivity, StabilityFinding, StabilityMap, StressReport,
 };
@@ -17,13 +17,13 @@ use serde_json::{Map, Value};
 pub(super) struct StabilityReport<'a> {
     length: f64,
     tried: Vec<CountRow>,
-    runs: Vec<RunRow<'a>>,
+    runs: Vec<StabilityRunRow<'a>>,
     shortest: Option<f64>,
     #[serde(rename = "pairsLeftOut")]
     skipped_pairs: usize,
     #[serde(rename = "leftOut")]
     skipped: Vec<String>,
-    findings: Vec<FindingRow<'a>>,
+    findings: Vec<StabilityFindingRow<'a>>,
     window: f64,
     margins: Vec<MarginRow<'a>>,
     sensitivity: SensitivityRow<'a>,
@@ -43,7 +43,7 @@ struct CountRow {
 }
 
 #[derive(Serialize)]
-struct RunRow<'a> {
+struct StabilityRunRow<'a> {
     kind: String,
     setting: Vec<ActionRow<'a>>,
     covered: f64,
@@ -79,7 +79,7 @@ struct EvidenceRow {
 }
 
 #[derive(Serialize)]
-struct FindingRow<'a> {
+struct StabilityFindingRow<'a> {
     #[serde(flatten)]
     fault: FaultRow<'a>,
     touched: bool,
@@ -165,7 +165,7 @@ pub(super) fn machine<'a>(report: &'a StressReport, programs: &'a Programs) -> S
         cut: t.cut,
         skipped: t.skipped,
     });
-    let runs = report.runs.iter().map(|run| RunRow {
+    let runs = report.runs.iter().map(|run| StabilityRunRow {
         kind: key(run.interaction.kind.description()),
         setting: actions(&run.interaction, programs),
         covered: run.covered,
@@ -189,15 +189,15 @@ pub(super) fn machine<'a>(report: &'a StressReport, programs: &'a Programs) -> S
     }
 }
 
-fn finding_row<'a>(found: &'a StabilityFinding, programs: &'a Programs) -> FindingRow<'a> {
+fn finding_row<'a>(found: &'a StabilityFinding, programs: &'a Programs) -> StabilityFindingRow<'a> {
     let remedies = found.remedies.iter().map(|r| {
         let row = RemedyRow { change: &r.change, work: r.work, time_ratio: r.time, error: r.error };
         with_nonfinite(&row, &[("work", &row.work), ("timeRatio", &row.time_ratio)])
     });
     let group = &found.group;
-    FindingRow {
+    StabilityFindingRow {
         fault: fault_row(&group.fault, &group.interaction, programs),
-        touched: group.interaction.kind == Kind::Touched,
+        touched: group.interaction.kind == InteractionKind::Touched,
         settings: group.settings,
         expected: found.expected,
         remedies: remedies.collect(),

@@ -2,7 +2,7 @@
 
 mod machine;
 
-use super::common::{Failure, Outcome, interrupted};
+use super::common::{CommandOutcome, Failure, interrupted};
 use super::lab_args::LabArguments;
 use super::output::write_file;
 use super::output::{requested_outputs, write_png};
@@ -54,7 +54,7 @@ enum StabilityFormat {
     Json,
 }
 
-pub(super) fn stability(a: &StabilityArguments) -> Result<Outcome, Failure> {
+pub(super) fn stability(a: &StabilityArguments) -> Result<CommandOutcome, Failure> {
     let target = a.handled.open()?;
     a.handled.check_outputs_writable(
         &target,
@@ -78,7 +78,7 @@ pub(super) fn stability(a: &StabilityArguments) -> Result<Outcome, Failure> {
         StabilityFormat::Human => print(&human(&report, &target.programs))?,
         StabilityFormat::Json => print_report("stability", &machine(&report, &target.programs))?,
     }
-    Ok(if report.fine() { Outcome::Clean } else { Outcome::Findings })
+    Ok(if report.fine() { CommandOutcome::Clean } else { CommandOutcome::Findings })
 }
 
 /// Parses `CONTROL1,CONTROL2`. Labels may contain commas: the text is split after the label of a control,

@@ -5,7 +5,7 @@
 //! freed.
 
 use super::gather::put;
-use super::spec::List;
+use super::spec::NumberList;
 
 /// Fills an array with the values of all objects, one object after the other.
 pub(super) fn flat<T, V, const N: usize>(
@@ -27,7 +27,7 @@ fn refill<T, V, const N: usize>(
 }
 
 /// Fills an array with `width` user values per object. Missing values are zero.
-pub(super) fn padded<'l>(array: &mut Vec<f64>, lists: impl Iterator<Item = &'l List>, width: usize) {
+pub(super) fn padded<'l>(array: &mut Vec<f64>, lists: impl Iterator<Item = &'l NumberList>, width: usize) {
     array.clear();
     lists.for_each(|l| (0..width).for_each(|k| put(array, l.numbers.get(k).copied().unwrap_or(0.0))));
 }

@@ -2,14 +2,14 @@
 
 use super::arrays::{flat, padded};
 use super::gather::listed;
-use super::layout::{Dof, Layout, Pattern, WholePattern};
+use super::layout::{Dof, SparsityPattern, TreeLayout, WholePattern};
 use super::spec::{
     ActuatorSpec, BodySpec, EqualitySpec, ExcludeSpec, GeomSpec, Inertia, JointSpec, KeySpec, PairSpec,
     SOLIMP, SOLREF, SensorSpec, SiteSpec, TendonSpec,
 };
 use crate::kinds::joint;
 use crate::math::{IDENTITY, MINVAL, quat_normalize, rows_mut};
-use crate::mjcf::actuator::fill_actuator::{self, Counts};
+use crate::mjcf::actuator::fill_actuator::{self, ActuatorCounts};
 use crate::mjcf::asset::fill_asset;
 use crate::mjcf::asset::read_asset::Assets;
 use crate::mjcf::constraint::fill_constraint;
@@ -46,13 +46,13 @@ pub(crate) struct Users {
 pub(crate) struct Parts<'a> {
     pub(crate) bodies: &'a [BodySpec],
     pub(crate) inertias: &'a [Inertia],
-    pub(crate) layout: &'a Layout,
+    pub(crate) layout: &'a TreeLayout,
     pub(crate) simple: &'a [i32],
-    pub(crate) pattern: Pattern,
+    pub(crate) pattern: SparsityPattern,
     pub(crate) whole: WholePattern,
     pub(crate) tendons: &'a [TendonSpec],
     pub(crate) actuators: &'a [ActuatorSpec],
-    pub(crate) counts: Counts,
+    pub(crate) counts: ActuatorCounts,
     pub(crate) equalities: &'a [EqualitySpec],
     pub(crate) pairs: &'a [PairSpec],
     pub(crate) excludes: &'a [ExcludeSpec],
@@ -89,9 +89,9 @@ pub(crate) fn fill_arrays(m: &mut Model, parts: Parts) {
     bodies(m, list, parts.inertias, layout, simple);
     joints(m, list, &members.joints);
     dofs(m, &members.joints, &layout.dofs, simple);
-    let Pattern { rownnz, rowadr, colind } = parts.pattern;
+    let SparsityPattern { rownnz, rowadr, colind } = parts.pattern;
     (m.M_rownnz, m.M_rowadr, m.M_colind) = (rownnz, rowadr, colind);
-    let Pattern { rownnz, rowadr, colind } = parts.whole.pattern;
+    let SparsityPattern { rownnz, rowadr, colind } = parts.whole.pattern;
     (m.D_rownnz, m.D_rowadr, m.D_colind, m.D_diag) = (rownnz, rowadr, colind, parts.whole.diag);
     fill_scene::geoms(m, &members.geoms, scene);
     bodies_from_geoms(m);
@@ -183,7 +183,7 @@ fn addresses(list: &[BodySpec], count: impl Fn(&BodySpec) -> usize) -> (Vec<i32>
     list.iter().map(&mut address).unzip()
 }
 
-fn bodies(m: &mut Model, list: &[BodySpec], inertias: &[Inertia], layout: &Layout, simple: &[i32]) {
+fn bodies(m: &mut Model, list: &[BodySpec], inertias: &[Inertia], layout: &TreeLayout, simple: &[i32]) {
     flat(&mut m.body_parentid, list, |b| [b.parent as i32]);
     flat(&mut m.body_rootid, &layout.root, |&i| [i as i32]);
     flat(&mut m.body_weldid, &layout.weld, |&i| [i as i32]);

@@ -8,7 +8,7 @@ use crate::lint::{ModelFolder, root_of};
 use crate::models::{self, FilesOf};
 use crate::rules;
 use crate::source::{self, SourceFile, Sources, Text};
-use crate::spec::format::Asked;
+use crate::spec::format::RequestedNames;
 use crate::spec::{Lab, ModelSource};
 use labspec_core::xml::{self, Files, Folder, NoFiles, Patch, Refusal};
 use labspec_core::{Model, Obj};
@@ -181,20 +181,20 @@ impl Models {
         }
         let folder = path.parent().unwrap_or(Path::new(""));
         let find = || Some(root_of(folder, &[]));
-        let root = self.sources.place(source::Asked::Root, folder, find).unwrap_or_default();
+        let root = self.sources.place(source::PathQuery::Root, folder, find).unwrap_or_default();
         compile_file(file, path, &root, &self.sources, None).findings
     }
 
     /// The names for completions in a lesson ([`crate::spec::format::completions`]).
-    pub fn names(&self, asked: Asked<'_>) -> Vec<String> {
+    pub fn names(&self, asked: RequestedNames<'_>) -> Vec<String> {
         let sites = |model: &Model| {
             let named = model.names.of_kind(Obj::Site).iter().filter(|name| !name.is_empty());
             named.cloned().collect()
         };
         match asked {
-            Asked::Models => self.folder.names().unwrap_or_default().to_vec(),
-            Asked::SitesOf(name) => self.load(name).map_or_else(Vec::new, |model| sites(&model)),
-            Asked::SitesIn(xml) => {
+            RequestedNames::Models => self.folder.names().unwrap_or_default().to_vec(),
+            RequestedNames::SitesOf(name) => self.load(name).map_or_else(Vec::new, |model| sites(&model)),
+            RequestedNames::SitesIn(xml) => {
                 xml::check_xml(xml, &NoFiles, None).model.map_or_else(Vec::new, |model| sites(&model))
             }
         }

@@ -25,7 +25,7 @@ pub use claim_id::is_about;
 pub use claims::Claim;
 pub use curves::{VerifyCurves, curves};
 pub use entries::{evidence, ledger};
-pub use judge::{CrossCheck, Recording, Request, file_name, hear};
+pub use judge::{CrossCheck, ReferenceRecording, Request, file_name, hear};
 pub use lab_runs::Coverage;
 pub use reproduce::{Basis, ClaimBasis, LabBasis, RunSettings, basis};
 pub use snapshot::{Divergence, SnapshotResult, SnapshotUpdate, UpdatedLab, update_snapshot};

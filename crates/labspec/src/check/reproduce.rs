@@ -9,7 +9,7 @@ use crate::bind::scene::Models;
 use crate::run::Integrator;
 use crate::run::{Budget, Session, Start};
 use crate::spec::Lesson;
-use crate::verify::Stage;
+use crate::verify::RunCache;
 use labspec_core::reflect::{self, FieldId, Object, model};
 use labspec_core::{self as core, AccessSet, Data, Model, Obj, Plan, solver};
 use std::collections::BTreeMap;
@@ -89,7 +89,7 @@ pub fn basis(lesson: &Lesson, models: &Models, hash: Hash) -> Basis {
         LabBasis { lab: address.to_string(), block: block(&lab.span), model: one.map(compiled), settings }
     });
     let labs = labs.collect();
-    let stage = Stage::new(models);
+    let stage = RunCache::new(models);
     let claims = claims::owners(lesson).into_iter().filter_map(|(name, owner)| {
         let (verify, written, _) = owner.claim(lesson)?;
         let span = match &owner {

@@ -8,7 +8,7 @@
 //!
 //! The poses of the last two steps are compared only while a geom is fast relative to the thinnest wall and near a wall.
 
-use super::sunk::{Size, size};
+use super::sunk::{GeomSize, size};
 use labspec_core::math::rows;
 use labspec_core::reflect::Stage;
 use labspec_core::{Data, Fields, Model, Scope, may_touch};
@@ -39,7 +39,7 @@ pub struct Through {
 pub struct TunnellingMonitor {
     /// Geoms that can make contacts, and the sizes of all geoms.
     geoms: Vec<usize>,
-    sizes: Vec<Size>,
+    sizes: Vec<GeomSize>,
     thinnest: f64,
     pos: Vec<f64>,
     mat: Vec<f64>,
@@ -56,7 +56,7 @@ pub fn watch<S: Scope>(m: &Model, d: &Data<S>) -> TunnellingMonitor {
     let has_poses = plan.keeps(Stage::Collision) && plan.keeps(Stage::GeomPoses);
     let touches = |g: &usize| m.geom_contype[*g] != 0 || m.geom_conaffinity[*g] != 0;
     let geoms: Vec<usize> = (0..m.ngeom).filter(touches).filter(|_| has_poses).collect();
-    let sizes: Vec<Size> = (0..m.ngeom).map(|g| size(m, g)).collect();
+    let sizes: Vec<GeomSize> = (0..m.ngeom).map(|g| size(m, g)).collect();
     let thinnest = geoms.iter().map(|&g| sizes[g].thickness).fold(f64::INFINITY, f64::min);
     let poses = |n: usize| vec![0.0; n * m.ngeom];
     TunnellingMonitor {
@@ -128,7 +128,7 @@ fn measure(w: &mut TunnellingMonitor, f: &Fields) -> f64 {
 fn walls(w: &TunnellingMonitor, m: &Model, f: &Fields) -> (bool, Option<Through>) {
     let (now, mut near) = (rows::<3>(&f.geom_xpos), false);
     for &wall in w.geoms.iter().filter(|&&g| w.sizes[g].thickness.is_finite()) {
-        let Size { thickness, length } = w.sizes[wall];
+        let GeomSize { thickness, length } = w.sizes[wall];
         for &g in w.geoms.iter().filter(|&&g| g != wall && w.sizes[g].thickness.is_finite()) {
             let moved = w.moved[g] + w.moved[wall];
             if moved <= 0.5 * FAST_DISPLACEMENT * thickness {

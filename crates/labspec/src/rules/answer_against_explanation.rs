@@ -1,5 +1,5 @@
 use super::Check;
-use super::wording::{Number, numbers, plain};
+use super::wording::{TextNumber, numbers, plain};
 use crate::spec::{Question, QuestionKind};
 use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
@@ -39,7 +39,7 @@ fn check_question(question: &Question, findings: &mut Vec<Finding>) {
     let Some(explain) = &question.explain else { return };
     let key = answer.value;
     let decimals = format!("{key}").split_once('.').map_or(0, |(_, d)| d.len());
-    let is = |n: &Number, value: f64, decimals: usize| {
+    let is = |n: &TextNumber, value: f64, decimals: usize| {
         (n.value - value).abs() <= 0.5000001 * 0.1_f64.powi(n.decimals.min(decimals) as i32)
     };
     let html = explain.as_str();
@@ -48,7 +48,7 @@ fn check_question(question: &Question, findings: &mut Vec<Finding>) {
         return;
     }
     let unit = unit.as_ref().map_or(String::new(), |u| plain_unit(u.as_str()));
-    let result = |n: &&Number| (n.significant >= 2 || n.decimals >= 2) && is_result(html, n, &unit);
+    let result = |n: &&TextNumber| (n.significant >= 2 || n.decimals >= 2) && is_result(html, n, &unit);
     for n in all.iter().filter(result) {
         let slip = MISTAKE_FACTORS.iter().find(|(by, _)| is(n, key / by, decimals + 2) && n.value != 0.0);
         let why = match slip {
@@ -75,7 +75,7 @@ fn check_question(question: &Question, findings: &mut Vec<Finding>) {
 }
 
 /// Whether a number is the result of a line of the explanation: it follows `=`, `≈`, `:` or `is`, and has the unit of the answer.
-fn is_result(html: &str, n: &Number, unit: &str) -> bool {
+fn is_result(html: &str, n: &TextNumber, unit: &str) -> bool {
     // The text near the number.
     let back =
         html.get(..n.at.start).unwrap_or("").char_indices().rev().nth(CONTEXT_LENGTH).map_or(0, |(at, _)| at);

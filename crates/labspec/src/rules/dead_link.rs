@@ -3,7 +3,7 @@ use crate::lint::links::{LinkedFile, MOST, decoded, folder_of, linked_files};
 use crate::lint::root_of;
 use crate::markdown::html::tags;
 use crate::markdown::{self, Link, Scan};
-use crate::source::{Asked, MAX_FILE, SourceFile, Sources};
+use crate::source::{MAX_FILE, PathQuery, SourceFile, Sources};
 use crate::spec::Lesson;
 use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 use std::collections::BTreeSet;
@@ -75,7 +75,7 @@ pub(crate) fn check_files(lesson: &Lesson, path: &Path, sources: &Sources, findi
     let mut root = None;
     for LinkedFile { link, path, extension, anchor } in linked_files(lesson, &folder) {
         let root = root.get_or_insert_with(|| {
-            let found = sources.place(Asked::Root, &folder, || Some(root_of(&folder, &[])));
+            let found = sources.place(PathQuery::Root, &folder, || Some(root_of(&folder, &[])));
             found.unwrap_or_default()
         });
         if !path.starts_with(&*root) {

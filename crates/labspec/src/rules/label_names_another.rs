@@ -36,7 +36,7 @@ const KINDS: [(Obj, &str); 6] = [
 const MAX_NAMES: usize = 400;
 
 /// A name of the model.
-struct NamedObject {
+struct LabelledObject {
     kind: Obj,
     noun: &'static str,
     index: usize,
@@ -46,7 +46,7 @@ struct NamedObject {
 }
 
 /// A label, and the objects that its expression reads.
-struct DisplayedValue<'l> {
+struct LabelledExpression<'l> {
     label: &'l Text,
     bound: &'l Bound,
     /// The names in the label. If one contains another, only the longer one.
@@ -72,7 +72,7 @@ pub(crate) fn check_names(lab: &Lab, model: &Model, programs: &Programs, finding
     let all = elements(model);
     let traces = lab.plots.iter().flat_map(|p| &p.traces).map(|t| &t.label);
     let labels = traces.chain(lab.readouts.iter().map(|r| &r.label));
-    let displays: Vec<DisplayedValue<'_>> = labels
+    let displays: Vec<LabelledExpression<'_>> = labels
         .zip(&programs.probes)
         .take(MAX_NAMES)
         .filter_map(|(label, probe)| displayed(label, probe.bound.as_ref()?, model, &all))
@@ -125,7 +125,7 @@ pub(crate) fn check_names(lab: &Lab, model: &Model, programs: &Programs, finding
 
 /// Whether a label names a quantity and then, after a comma, a joint, while the expression reads another joint: `force, shoulder
 /// (N)`.
-fn is_in_name_position(one: &DisplayedValue<'_>, named: &NamedObject) -> bool {
+fn is_in_name_position(one: &LabelledExpression<'_>, named: &LabelledObject) -> bool {
     let last = one.label.as_str().rsplit_once(", ").map(|(_, last)| words_of(last));
     let joint = named.kind == Obj::Joint && one.reads.iter().all(|(kind, _)| *kind == Obj::Joint);
     joint && last.is_some_and(|words| words == named.words)
@@ -179,7 +179,7 @@ fn quotes_another(label: &Text, bound: &Bound, model: &Model) -> Option<Finding>
 }
 
 /// Reports a trace that has the name of an object of the model, but is a constant.
-fn a_number(trace: &Trace, bound: Option<&Bound>, all: &[NamedObject]) -> Option<Finding> {
+fn a_number(trace: &Trace, bound: Option<&Bound>, all: &[LabelledObject]) -> Option<Finding> {
     let bound = bound.filter(|b| b.program.effects().constant())?;
     let words = words_of(trace.label.as_str());
     let named = all.iter().find(|n| n.words == words)?;
@@ -199,7 +199,7 @@ fn words_of(label: &str) -> Vec<String> {
 }
 
 /// Whether the label consists only of the name of an object that has the quantity that the expression reads.
-fn is_only_named_object(one: &DisplayedValue<'_>, named: &NamedObject) -> bool {
+fn is_only_named_object(one: &LabelledExpression<'_>, named: &LabelledObject) -> bool {
     let same_kind = |kind: Obj| kind == named.kind || named.kind == Obj::Body && kind == Obj::Joint;
     one.rest.is_empty() && one.reads.iter().all(|(kind, _)| same_kind(*kind))
 }
@@ -207,11 +207,11 @@ fn is_only_named_object(one: &DisplayedValue<'_>, named: &NamedObject) -> bool {
 /// Whether another label differs only in its name, and names what this one reads. If that other label reads a third object, the
 /// names may have another meaning.
 fn beside(
-    one: &DisplayedValue<'_>,
-    named: &NamedObject,
+    one: &LabelledExpression<'_>,
+    named: &LabelledObject,
     body: usize,
-    displayed: &[DisplayedValue<'_>],
-    all: &[NamedObject],
+    displayed: &[LabelledExpression<'_>],
+    all: &[LabelledObject],
 ) -> bool {
     displayed.iter().any(|other| {
         let [name] = other.names.as_slice() else { return false };
@@ -227,8 +227,8 @@ fn displayed<'l>(
     label: &'l Text,
     bound: &'l Bound,
     model: &Model,
-    all: &[NamedObject],
-) -> Option<DisplayedValue<'l>> {
+    all: &[LabelledObject],
+) -> Option<LabelledExpression<'l>> {
     let effects = bound.program.effects();
     if effects.reads_everything || effects.any_ctx || effects.calls_values || !effects.ctx_reads.is_empty() {
         return None;
@@ -267,7 +267,7 @@ fn displayed<'l>(
     if let [(_, from, to)] = names.as_slice() {
         rest.drain(*from..*to);
     }
-    Some(DisplayedValue {
+    Some(LabelledExpression {
         label,
         bound,
         names: names.into_iter().map(|n| n.0).collect(),
@@ -285,7 +285,7 @@ fn split_words(text: &str) -> Vec<String> {
 
 /// All named elements that belong to a body other than the world. Names of one letter are excluded, because they do not occur in
 /// labels.
-fn elements(model: &Model) -> Vec<NamedObject> {
+fn elements(model: &Model) -> Vec<LabelledObject> {
     let mut all = Vec::new();
     for (kind, noun) in KINDS {
         for (index, name) in model
@@ -300,7 +300,7 @@ fn elements(model: &Model) -> Vec<NamedObject> {
             // A namespace precedes the slash.
             let short_name = name.rsplit('/').next().unwrap_or(name);
             if let (Some(body), false) = (body, split_words(short_name).is_empty()) {
-                all.push(NamedObject {
+                all.push(LabelledObject {
                     kind,
                     noun,
                     index,

@@ -37,12 +37,12 @@ const MAX_ELEMENTS: usize = 64;
 
 /// An element that a control sets.
 #[derive(Clone, Copy)]
-struct Element {
+struct WrittenElement {
     field: FieldId,
     index: usize,
 }
 
-impl Element {
+impl WrittenElement {
     fn value(self, session: &Session<'_>) -> f64 {
         session.world.get(FieldKey(self.field.index() as u32), self.index).unwrap_or(f64::NAN)
     }
@@ -62,7 +62,7 @@ impl Element {
 }
 
 /// The elements that a program sets. `None` if it has other effects, or sets values that also change by themselves.
-fn elements(bound: &Bound) -> Option<Vec<Element>> {
+fn elements(bound: &Bound) -> Option<Vec<WrittenElement>> {
     let effects = bound.program.effects();
     let more = effects.writes_everything || effects.any_ctx || effects.calls_values;
     if more || !effects.ctx_writes.is_empty() || !effects.calls.is_empty() {
@@ -75,7 +75,7 @@ fn elements(bound: &Bound) -> Option<Vec<Element>> {
         if field.info().object == Object::Data && field.info().kind != Kind::Input {
             return None;
         }
-        all.extend((write.first..write.first + count).map(|index| Element { field, index }));
+        all.extend((write.first..write.first + count).map(|index| WrittenElement { field, index }));
     }
     (!all.is_empty() && all.len() <= MAX_ELEMENTS).then_some(all)
 }
@@ -115,7 +115,7 @@ fn initial_value(
     observed: &ObservedLab<'_>,
     index: usize,
     current: &Value,
-    elements: &[Element],
+    elements: &[WrittenElement],
 ) -> Option<String> {
     let ready = observed.bench.ready;
     let mut programs = ready.programs.clone();
@@ -147,7 +147,7 @@ fn overwritten(
     observed: &mut ObservedLab<'_>,
     index: usize,
     control: &Control,
-    elements: &[Element],
+    elements: &[WrittenElement],
 ) -> Option<String> {
     let ready = observed.bench.ready;
     ready.programs.controller.as_ref()?;
@@ -193,7 +193,7 @@ fn after(
     at: usize,
     index: usize,
     value: &Value,
-    elements: &[Element],
+    elements: &[WrittenElement],
 ) -> Option<(Vec<f64>, Vec<f64>)> {
     let mut session = observed.bench.start();
     let now = |session: &Session<'_>| elements.iter().map(|e| e.value(session)).collect::<Vec<f64>>();

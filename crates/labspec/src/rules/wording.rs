@@ -42,7 +42,7 @@ pub(super) fn normalized_words(html: &str) -> String {
 
 /// A number in a text.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Number {
+pub(super) struct TextNumber {
     /// The byte range in the text.
     pub(super) at: Range<usize>,
     pub(super) value: f64,
@@ -53,7 +53,7 @@ pub(super) struct Number {
 }
 
 /// The numbers of a text of HTML, without powers of ten, indices and exponents.
-pub(super) fn numbers(html: &str) -> Vec<Number> {
+pub(super) fn numbers(html: &str) -> Vec<TextNumber> {
     let texts = tokens(html).into_iter().filter_map(|token| match token {
         HtmlToken::Text(at) => Some(at),
         HtmlToken::Decoded(..) | HtmlToken::Tag(_) => None,
@@ -75,7 +75,7 @@ pub(super) fn numbers(html: &str) -> Vec<Number> {
     all
 }
 
-fn number(html: &str, at: Range<usize>, decimals: usize) -> Option<Number> {
+fn number(html: &str, at: Range<usize>, decimals: usize) -> Option<TextNumber> {
     let (before, after) = (html.get(..at.start)?, html.get(at.end..)?);
     let digits = html.get(at.clone())?;
     let negative = before.ends_with(['-', '−']);
@@ -94,7 +94,7 @@ fn number(html: &str, at: Range<usize>, decimals: usize) -> Option<Number> {
     let sign = negative && !outer.trim_end().ends_with(|c: char| c.is_alphanumeric() || ")}".contains(c));
     let value: f64 = digits.parse().ok()?;
     let significant = digits.bytes().filter(u8::is_ascii_digit).skip_while(|b| *b == b'0').count();
-    Some(Number { at, value: if sign { -value } else { value }, decimals, significant })
+    Some(TextNumber { at, value: if sign { -value } else { value }, decimals, significant })
 }
 
 #[cfg(test)]

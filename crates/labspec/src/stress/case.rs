@@ -2,7 +2,7 @@
 
 use super::bodies;
 use super::fault::{Fault, FaultKind};
-use super::interaction::{Action, Interaction, Kind, PUSH_SPEED};
+use super::interaction::{Action, Interaction, InteractionKind, PUSH_SPEED};
 use super::run_faults::{DIVERGED, earliest_observed_fault, reported_faults, warned};
 use super::watch::{MOST_PAIRS, RunMonitor};
 use crate::bind::{Bound, Programs};
@@ -179,7 +179,7 @@ impl<'a> StressCase<'a> {
                 None => session.press(action.control),
             }
         }
-        if interaction.kind == Kind::Touched {
+        if interaction.kind == InteractionKind::Touched {
             session.world.data.edit().qvel.iter_mut().for_each(|v| *v += PUSH_SPEED);
             session.refresh();
         }

@@ -2,7 +2,7 @@
 //! thickness of the body.
 
 use super::bodies::{body_of, centre_in_frame, geom_name, may_meet};
-use super::fault::{Evidence, Fault, FaultKind};
+use super::fault::{Fault, FaultEvidence, FaultKind};
 use labspec_core::math::{Vec3, norm, rows, sub};
 use labspec_core::{Fields, Model, geom, geom_thickness};
 
@@ -87,9 +87,9 @@ fn fall_fault(m: &Model, d: &Fields, [g, p]: [usize; 2], travel: f64, depth: f64
         subject: format!("{} through {}", geom_name(m, g), geom_name(m, p)),
         cause: cause.into(),
         evidence: vec![
-            Evidence { name: "depth below the surface", value: depth, unit: "m" },
-            Evidence { name: "way since it was above it", value: travel, unit: "m" },
-            Evidence { name: "own thickness", value: thick, unit: "m" },
+            FaultEvidence { name: "depth below the surface", value: depth, unit: "m" },
+            FaultEvidence { name: "way since it was above it", value: travel, unit: "m" },
+            FaultEvidence { name: "own thickness", value: thick, unit: "m" },
         ],
         size: depth / thick,
         by_run: false,

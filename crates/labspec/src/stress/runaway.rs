@@ -8,7 +8,7 @@
 
 use super::bodies::joint_of_dof;
 use super::causes::stiffness_cause;
-use super::fault::{Evidence, Fault, FaultKind};
+use super::fault::{Fault, FaultEvidence, FaultKind};
 use super::history::RunHistory;
 use labspec_core::math::norm;
 use labspec_core::{Fields, Model, joint};
@@ -116,8 +116,8 @@ impl RunawayMonitor {
             cause: stiffness_cause(m)
                 .unwrap_or_else(|| "it grows exponentially, and the engine gives no warning".into()),
             evidence: vec![
-                Evidence { name: "speed", value: speed, unit },
-                Evidence { name: "sensible bound", value: bound, unit },
+                FaultEvidence { name: "speed", value: speed, unit },
+                FaultEvidence { name: "sensible bound", value: bound, unit },
             ],
             size: speed / bound,
             by_run: false,

@@ -4,7 +4,7 @@
 use super::bodies::{self, body_of, body_thickness, centre_in_frame, geom_name};
 use super::causes::stiffness_cause;
 use super::creep::CreepMonitor;
-use super::fault::{Evidence, Fault, FaultKind};
+use super::fault::{Fault, FaultEvidence, FaultKind};
 use super::height_field::{self, HeightFieldPair};
 use super::runaway::RunawayMonitor;
 use labspec_core::math::{Vec3, rows, sub};
@@ -294,9 +294,9 @@ fn tunnelling(m: &Model, d: &Fields, [g, p]: [usize; 2], from: Vec3, to: Vec3) -
         subject: format!("{} through {}", geom_name(m, g), geom_name(m, p)),
         cause,
         evidence: vec![
-            Evidence { name: "way in one step", value: travel, unit: "m" },
-            Evidence { name: "thickness of what it passes", value: thick, unit: "m" },
-            Evidence { name: "own thickness", value: own_thickness, unit: "m" },
+            FaultEvidence { name: "way in one step", value: travel, unit: "m" },
+            FaultEvidence { name: "thickness of what it passes", value: thick, unit: "m" },
+            FaultEvidence { name: "own thickness", value: own_thickness, unit: "m" },
         ],
         size: travel / thick,
         by_run: false,
@@ -323,10 +323,10 @@ fn penetration(m: &Model, t: &TouchingPair) -> Fault {
         subject: format!("{} and {}", geom_name(m, g), geom_name(m, p)),
         cause,
         evidence: vec![
-            Evidence { name: "depth", value: t.depth, unit: "m" },
-            Evidence { name: "size of the smaller one", value: t.size, unit: "m" },
-            Evidence { name: "share", value: t.deepest, unit: "" },
-            Evidence { name: "lasts", value: t.lasted, unit: "s" },
+            FaultEvidence { name: "depth", value: t.depth, unit: "m" },
+            FaultEvidence { name: "size of the smaller one", value: t.size, unit: "m" },
+            FaultEvidence { name: "share", value: t.deepest, unit: "" },
+            FaultEvidence { name: "lasts", value: t.lasted, unit: "s" },
         ],
         size: t.deepest,
         by_run: false,
@@ -344,8 +344,8 @@ fn chatter(m: &Model, d: &Fields, t: &TouchingPair) -> Fault {
         subject: format!("{} on {}", geom_name(m, g), geom_name(m, p)),
         cause,
         evidence: vec![
-            Evidence { name: "switches in 100 steps", value: t.switches as f64, unit: "" },
-            Evidence { name: "moves meanwhile", value: t.moved, unit: "m" },
+            FaultEvidence { name: "switches in 100 steps", value: t.switches as f64, unit: "" },
+            FaultEvidence { name: "moves meanwhile", value: t.moved, unit: "m" },
         ],
         size: t.switches as f64,
         by_run: false,

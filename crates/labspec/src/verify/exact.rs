@@ -7,7 +7,7 @@
 
 use super::bound::BoundVerify;
 use super::format::significant;
-use super::run_cache::{BoundLab, Stage};
+use super::run_cache::{BoundLab, RunCache};
 use crate::bind::{Bound, ModelNames, Programs, Scope, functions, include, to_finding};
 use crate::finding::Finding;
 use crate::json::nearest;
@@ -376,7 +376,7 @@ impl ClosedFormRuns<'_> {
     }
 
     /// Runs the lab with its timestep divided by `parts`. The sample times do not depend on `parts`.
-    fn run(&self, parts: usize, stage: &Stage<'_>) -> Result<Differences, String> {
+    fn run(&self, parts: usize, stage: &RunCache<'_>) -> Result<Differences, String> {
         let mut session = self.start();
         let h = session.world.model.opt.timestep;
         let count = run::count_steps(self.lab, None, None, h).map_err(|e| e.0)?.clamp(1, MAX_STEPS);

@@ -3,7 +3,7 @@
 
 use super::bound::BoundVerify;
 use super::format::significant;
-use super::outcome::Outcome;
+use super::outcome::MeasuredRuns;
 use super::quote::{OptionNumber, UnitMatch, conversion, hold, option_ratio, option_text};
 use super::units;
 use crate::finding::Finding;
@@ -29,7 +29,7 @@ struct RequiredRange {
 /// contradicts.
 pub(super) fn check_option_numbers(
     bound: &BoundVerify<'_>,
-    outcome: &Outcome,
+    outcome: &MeasuredRuns,
     options: &[Text],
     conditions: &[Text],
     held: &[Option<bool>],
@@ -53,7 +53,7 @@ pub(super) fn check_option_numbers(
 
 fn contradiction(
     bound: &BoundVerify<'_>,
-    outcome: &Outcome,
+    outcome: &MeasuredRuns,
     option: &Text,
     condition: &Text,
     holds: bool,

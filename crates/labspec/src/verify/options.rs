@@ -6,7 +6,7 @@ use super::format::shorten;
 use super::found::MeasuredValue;
 use super::grounded::{decided_value, grounded_value};
 use super::option_numbers::check_option_numbers;
-use super::outcome::Outcome;
+use super::outcome::MeasuredRuns;
 use super::outcomes::Outcomes;
 use super::survival::{fragile_answer, verdict_by, withstand_numerics};
 use super::verdict::{Answer, Verdict, Weight};
@@ -61,7 +61,7 @@ pub(super) fn check_options(
         return judgement.judged(Verdict::Failed, "no other option is decided".to_string());
     }
     let mut widened = judgement.weights.clone();
-    let mut turns = |outcome: &Outcome, how: &str, weights: &mut [Weight]| {
+    let mut turns = |outcome: &MeasuredRuns, how: &str, weights: &mut [Weight]| {
         judgement.answer_changes(bound, outcome, how, weights)
     };
     if let Err((verdict, reason)) =
@@ -243,7 +243,7 @@ impl OptionJudgement<'_> {
     fn answer_changes(
         &self,
         bound: &BoundVerify<'_>,
-        outcome: &Outcome,
+        outcome: &MeasuredRuns,
         how: &str,
         weights: &mut [Weight],
     ) -> Option<Finding> {
@@ -282,7 +282,7 @@ pub const UNDECIDED: &str = "undecided";
 /// with other values in place of the measured ones, as under the numerics of the lesson.
 fn evaluate_conditions(
     bound: &BoundVerify<'_>,
-    outcome: &Outcome,
+    outcome: &MeasuredRuns,
     verify: &Verify,
     tried: bool,
     findings: &mut Vec<Finding>,
@@ -327,7 +327,7 @@ pub(super) enum SameOptions {
 /// Whether exactly the same options hold as before, in an outcome with other settings.
 pub(super) fn compare_options(
     bound: &BoundVerify<'_>,
-    outcome: &Outcome,
+    outcome: &MeasuredRuns,
     verify: &Verify,
     weights: &[Weight],
 ) -> SameOptions {

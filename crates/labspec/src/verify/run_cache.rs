@@ -61,7 +61,7 @@ const WORK: u64 = 12_000_000_000;
 
 /// The cache that the `verify` objects of a lesson share: modified labs and results of runs, within one work budget.
 #[derive(Debug)]
-pub struct Stage<'a> {
+pub struct RunCache<'a> {
     models: &'a Models,
     changed: RefCell<Vec<BoundLab<'static>>>,
     runs: RefCell<BTreeMap<String, RunResult>>,
@@ -70,10 +70,10 @@ pub struct Stage<'a> {
     has_uncoupled_change: Cell<bool>,
 }
 
-impl<'a> Stage<'a> {
+impl<'a> RunCache<'a> {
     /// An empty cache. `models` resolves the models that labs name.
-    pub fn new(models: &'a Models) -> Stage<'a> {
-        Stage {
+    pub fn new(models: &'a Models) -> RunCache<'a> {
+        RunCache {
             models,
             changed: RefCell::default(),
             runs: RefCell::default(),

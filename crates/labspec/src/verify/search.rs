@@ -7,7 +7,7 @@
 
 use super::bound::BoundVerify;
 use super::format::significant;
-use super::run_cache::{BoundLab, Stage, misspelt};
+use super::run_cache::{BoundLab, RunCache, misspelt};
 use super::runner::TIMESTEP;
 use crate::finding::Finding;
 use crate::rules;
@@ -52,7 +52,7 @@ pub(super) struct SearchLimit {
 /// reported.
 pub(super) fn search(
     case: &SearchCase<'_>,
-    stage: &Stage<'_>,
+    stage: &RunCache<'_>,
     numerics: StepVariant,
     findings: &mut Vec<Finding>,
 ) -> Option<SearchLimit> {
@@ -254,7 +254,7 @@ fn path(case: &SearchCase<'_>) -> Option<String> {
 /// if the condition is undecided.
 fn holds(
     case: &SearchCase<'_>,
-    stage: &Stage<'_>,
+    stage: &RunCache<'_>,
     x: f64,
     numerics: StepVariant,
     findings: &mut Vec<Finding>,

@@ -4,19 +4,19 @@ use super::case::PrecisionCase;
 use super::event_finder::EventThresholds;
 use super::event_time::EventTime;
 use super::numbers::range;
-use super::run_record::{Run, RunRequest, RunStatus};
+use super::run_record::{RecordRequest, RunStatus, SampledRun};
 use super::setting::Setting;
 use labspec::run::RunError;
 use labspec::run::{INTEGRATORS, Integrator};
 
 /// The reference solution, as far as it is known.
-pub(super) struct Reference {
+pub(super) struct ReferenceSolution {
     /// The values of each target at the samples.
     pub(super) values: Vec<Vec<f64>>,
     /// The uncertainty of each value, from the largest difference of the two families so far.
     pub(super) uncertain: Vec<Vec<f64>>,
     /// The run from which energy and penetration depth are taken.
-    pub(super) run: Run,
+    pub(super) run: SampledRun,
     /// The uncertainty of the penetration depth, m.
     pub(super) depth_doubt: f64,
     /// The times of the first contact, of zero crossings and of turning points.
@@ -57,8 +57,8 @@ pub(super) fn run(
     case: &PrecisionCase<'_>,
     id: i32,
     timestep: f64,
-    ask: RunRequest<'_>,
-) -> Result<Option<Run>, RunError> {
+    ask: RecordRequest<'_>,
+) -> Result<Option<SampledRun>, RunError> {
     let seen = case.run(&Setting { integrator: method(id), timestep, solver: None }, ask)?;
     Ok(matches!(seen.status, RunStatus::Good | RunStatus::Warned).then_some(seen))
 }

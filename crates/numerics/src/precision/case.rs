@@ -3,7 +3,7 @@
 use super::event_finder::EventFinder;
 use super::integrator_work::integrator_work;
 use super::jumps;
-use super::run_record::{EnergySampler, Run, RunRequest, SamplingPlan};
+use super::run_record::{EnergySampler, RecordRequest, SampledRun, SamplingPlan};
 use super::setting::Setting;
 use labspec::bind::{
     Bound, ControlProgram, ModelNames, Programs, Scope, dimensions, include, of_label, to_finding,
@@ -230,7 +230,7 @@ impl<'a> PrecisionCase<'a> {
     }
 
     /// Runs the lab with a setting.
-    pub(super) fn run(&self, setting: &Setting, request: RunRequest<'_>) -> Result<Run, RunError> {
+    pub(super) fn run(&self, setting: &Setting, request: RecordRequest<'_>) -> Result<SampledRun, RunError> {
         let mut session = self.start(Some(setting))?;
         if request.perturbation != 0.0 {
             let perturbation = request.perturbation;
@@ -238,7 +238,7 @@ impl<'a> PrecisionCase<'a> {
         }
         let sampling_plan = self.sampling_plan(setting.timestep);
         let steps = sampling_plan.count * sampling_plan.steps;
-        let mut record = Run::with_capacity(self.targets.len(), sampling_plan.count + 1);
+        let mut record = SampledRun::with_capacity(self.targets.len(), sampling_plan.count + 1);
         let mut energy = EnergySampler::new(&session.world.model);
         let mut finder = request.sought.map(|s| EventFinder::new(s, &session.world.model, setting));
         let evaluate = |session: &mut Session<'_>, i: usize| self.value(session, i);
@@ -286,7 +286,12 @@ impl<'a> PrecisionCase<'a> {
     }
 
     /// Evaluates all targets. At a sample, the values are recorded, together with those of the closed forms.
-    fn sample_targets(&self, session: &mut Session<'_>, now: &mut [f64], mut record: Option<&mut Run>) {
+    fn sample_targets(
+        &self,
+        session: &mut Session<'_>,
+        now: &mut [f64],
+        mut record: Option<&mut SampledRun>,
+    ) {
         for (i, target) in self.targets.iter().enumerate() {
             now[i] = self.value(session, i);
             if let Some(record) = &mut record {

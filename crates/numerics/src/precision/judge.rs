@@ -1,9 +1,9 @@
 //! The errors of a run relative to the reference.
 
-use super::agreement::Reference;
+use super::agreement::ReferenceSolution;
 use super::case::{ComparedNumber, DisplayPrecision, PrecisionCase};
 use super::numbers::range;
-use super::run_record::{Run, RunStatus};
+use super::run_record::{RunStatus, SampledRun};
 use labspec::run::printed;
 
 /// The errors of a number in a run, in the unit of the trace.
@@ -123,7 +123,11 @@ const DIGITS_ROUND: f64 = 1e-12;
 const CONSTANT: f64 = 1e-6;
 
 /// Determines the truth of all targets of a case; `own_run` is the run with the lab's own setting.
-pub(super) fn compared(case: &PrecisionCase<'_>, reference: &Reference, own_run: &Run) -> Vec<Compared> {
+pub(super) fn compared(
+    case: &PrecisionCase<'_>,
+    reference: &ReferenceSolution,
+    own_run: &SampledRun,
+) -> Vec<Compared> {
     let one = |(i, target): (usize, &ComparedNumber<'_>)| {
         let closed = target.exact.is_some();
         let values = if closed { &reference.run.exact[i] } else { &reference.values[i] };
@@ -172,9 +176,9 @@ pub(super) fn compared(case: &PrecisionCase<'_>, reference: &Reference, own_run:
 /// The errors of a run with some timestep, for each target.
 pub(super) fn errors(
     case: &PrecisionCase<'_>,
-    reference: &Reference,
+    reference: &ReferenceSolution,
     targets: &[Compared],
-    run: &Run,
+    run: &SampledRun,
     timestep: f64,
 ) -> Vec<Errors> {
     // The time is a sum of this many steps, each of which is rounded.

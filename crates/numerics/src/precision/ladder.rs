@@ -2,7 +2,7 @@
 
 use super::case::PrecisionCase;
 use super::report::PrecisionOptions;
-use super::setting::{Setting, Solver};
+use super::setting::{Setting, SolverVariation};
 use labspec::run::{self, RunError};
 use labspec::run::{INTEGRATORS, Integrator};
 use labspec::spec::Lab;
@@ -86,7 +86,7 @@ impl Ladder {
         if !list.contains(&mine) {
             list.push(mine);
         }
-        let solver = |s: Solver| Setting { solver: Some(s), ..mine };
+        let solver = |s: SolverVariation| Setting { solver: Some(s), ..mine };
         list.extend(options.axes.iter().flat_map(|axis| axis.values()).map(solver));
         list
     }

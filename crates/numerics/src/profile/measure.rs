@@ -60,7 +60,7 @@ pub struct StepCost {
 }
 
 /// All measurements, with the stages in the order of the plan.
-pub(super) struct Measured {
+pub(super) struct Measurements {
     pub(super) step: StepCost,
     pub(super) seen: ConstraintCounts,
     pub(super) stages: Vec<Option<StageCost>>,
@@ -194,7 +194,7 @@ pub(super) fn measure(
     model: &Model,
     programs: &Programs,
     readers: &[ExtraReader],
-) -> Result<Option<Measured>, RunError> {
+) -> Result<Option<Measurements>, RunError> {
     let (plan, _) = plan_at_start(lab, model, programs);
     let mut case = MeasuredLab { lab, model, programs, steps: 0, runs: 1, chunk: 16 };
     let (mut step, works) = observe_run(&mut case, &plan)?;
@@ -237,7 +237,7 @@ pub(super) fn measure(
         }));
     }
     let readers = (0..readers.len()).map(|i| more(next + 1 + i)).collect();
-    Ok(Some(Measured { seen: step.seen, step, stages: costs, forced, readers }))
+    Ok(Some(Measurements { seen: step.seen, step, stages: costs, forced, readers }))
 }
 
 /// The plans that are measured: the lab's own, one that reads everything, one with each omitted stage, one with each reader.

@@ -10,7 +10,7 @@ use labspec::interrupt;
 use labspec::monitors::stability;
 use labspec::run::Session;
 use labspec::stress::{
-    FaultKind, Interaction, Kind, RunOutcome, StressCase, body_name, body_of, worst_fault,
+    FaultKind, Interaction, InteractionKind, RunOutcome, StressCase, body_name, body_of, worst_fault,
 };
 use labspec_core::math::{rows, rows_mut};
 use labspec_core::{Data, Model, Obj, disable, servo_gains, set_const};
@@ -150,7 +150,7 @@ fn search(
         if *work - before > WORK || interrupt::requested() {
             return None;
         }
-        for interaction in [case.base.clone(), case.base.and(Kind::Touched, Vec::new())] {
+        for interaction in [case.base.clone(), case.base.and(InteractionKind::Touched, Vec::new())] {
             runs += 1;
             let Some(outcome) = run(case, &interaction, raised, x, length, work) else {
                 set = true;

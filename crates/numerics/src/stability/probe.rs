@@ -9,7 +9,7 @@ use labspec::interrupt;
 use labspec::run::{self, RunError};
 use labspec::spec::{Expect, Lab};
 use labspec::stress::{
-    FaultGroup, FaultKind, Interaction, Kind, StressCase, add_fault, list_interactions, window,
+    FaultGroup, FaultKind, Interaction, InteractionKind, StressCase, add_fault, list_interactions, window,
     without_pushed_bodies,
 };
 use labspec_core::Model;
@@ -66,7 +66,7 @@ pub struct StabilityFinding {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RunCount {
     /// The kind.
-    pub kind: Kind,
+    pub kind: InteractionKind,
     /// Runs that were completed, or stopped at a fault.
     pub made: usize,
     /// Runs that exceeded their work limit.
@@ -163,7 +163,7 @@ pub fn probe(
 fn empty_report(length: f64, window: f64, skipped_pairs: usize) -> StressReport {
     StressReport {
         length,
-        tried: Kind::ALL.map(|kind| RunCount { kind, made: 0, cut: 0, skipped: 0 }).to_vec(),
+        tried: InteractionKind::ALL.map(|kind| RunCount { kind, made: 0, cut: 0, skipped: 0 }).to_vec(),
         runs: Vec::new(),
         shortest: None,
         skipped_pairs,
@@ -211,7 +211,7 @@ fn run_interactions(
         let outcome = case.run(interaction, None, length, share);
         left = left.saturating_sub(outcome.spent);
         report.work += outcome.spent;
-        if interaction.kind == Kind::AsItStands {
+        if interaction.kind == InteractionKind::AsItStands {
             work_per_second = outcome.spent as f64 / outcome.covered.max(case.model.opt.timestep);
         }
         if outcome.cut {

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::copy::own_name;
 use super::references::{self, Names, SECTIONS};
-use crate::mjcf::text::tree::Node;
+use crate::mjcf::text::tree::ElementNode;
 
 /// The elements of [`SECTIONS`], indexed by the objects that they refer to.
 #[derive(Debug, Default)]
@@ -32,13 +32,13 @@ pub(super) struct Followers {
 }
 
 /// Whether an element can be copied with a part. Custom numbers and texts belong to the model as a whole.
-pub(super) fn can_follow(section: &str, node: &Node) -> bool {
+pub(super) fn can_follow(section: &str, node: &ElementNode) -> bool {
     section != "custom" || node.element.name == "tuple"
 }
 
 impl Uses {
     /// Adds an element to the index.
-    pub(super) fn add(&mut self, section: &str, nodes: &[Node], at: usize) {
+    pub(super) fn add(&mut self, section: &str, nodes: &[ElementNode], at: usize) {
         let Some(section) = SECTIONS.iter().position(|s| *s == section) else { return };
         if !nodes.get(at).is_some_and(|node| can_follow(SECTIONS[section], node)) {
             return;
@@ -63,7 +63,7 @@ impl Uses {
     }
 
     /// The index of all elements of a tree.
-    pub(super) fn build_index(nodes: &[Node]) -> Uses {
+    pub(super) fn build_index(nodes: &[ElementNode]) -> Uses {
         let mut uses = Uses::default();
         for &section in nodes.first().map_or(&[][..], |root| &root.children) {
             let Some(section) = nodes.get(section) else { continue };
@@ -76,7 +76,12 @@ impl Uses {
 
     /// The elements that are copied together with a part that has these names: those that refer to it, directly or through
     /// other copied elements, and those without references.
-    pub(super) fn followers(&self, nodes: &[Node], subtree: &Names, other_model: bool) -> Vec<Followers> {
+    pub(super) fn followers(
+        &self,
+        nodes: &[ElementNode],
+        subtree: &Names,
+        other_model: bool,
+    ) -> Vec<Followers> {
         let mut bound: BTreeSet<(usize, usize)> = BTreeSet::new();
         let mut followed = subtree.clone();
         let mut new: Vec<(&'static str, String)> = listed(subtree.iter().cloned());

@@ -4,7 +4,7 @@ use super::{digits, element_span, format_name};
 use crate::kinds::joint;
 use crate::mjcf::rules;
 use crate::mjcf::text::diagnostic::Diagnostics;
-use crate::mjcf::text::tree::Tree;
+use crate::mjcf::text::tree::ElementTree;
 use crate::model::{Model, Obj};
 
 /// The largest ratio of the masses of neighbours that is not reported.
@@ -12,7 +12,7 @@ const MAX_MASS_RATIO: f64 = 1e4;
 /// The smallest inertia that is not reported, kg m².
 const TINY: f64 = 1e-9;
 
-pub(super) fn check_masses(tree: &Tree, m: &Model, report: &mut Diagnostics) {
+pub(super) fn check_masses(tree: &ElementTree, m: &Model, report: &mut Diagnostics) {
     let body = |b: usize| m.names.of_kind(Obj::Body).get(b).map_or("", String::as_str);
     for b in 1..m.nbody {
         let parent = m.body_parentid.get(b).and_then(|p| usize::try_from(*p).ok()).unwrap_or(0);

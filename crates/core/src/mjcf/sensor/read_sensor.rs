@@ -8,9 +8,9 @@ use crate::mjcf::gather::listed;
 use crate::mjcf::ids::References;
 use crate::mjcf::rules::{self, Rule};
 use crate::mjcf::settings::checked;
-use crate::mjcf::spec::{List, SensorObjects, SensorSpec, SensorTiming, TendonSpec};
+use crate::mjcf::spec::{NumberList, SensorObjects, SensorSpec, SensorTiming, TendonSpec};
 use crate::mjcf::text::diagnostic::{Diagnostics, shorten_name};
-use crate::mjcf::text::tree::{Node, Tree, name};
+use crate::mjcf::text::tree::{ElementNode, ElementTree, name};
 use crate::model::Obj;
 use crate::sensor::{
     CONTACT_DATA, Datatype, KINDS, RAY_DATA, SensorKind, SensorStage, SensorTarget, data_size,
@@ -20,8 +20,8 @@ use crate::sensor::{
 const MAX_VALUES: usize = 1 << 22;
 
 /// The inputs for reading a sensor.
-struct Context<'a> {
-    node: &'a Node,
+struct SensorContext<'a> {
+    node: &'a ElementNode,
     /// The attributes of the sensor. Sensors have no defaults.
     p: Props,
     refs: References<'a>,
@@ -31,7 +31,7 @@ struct Context<'a> {
 
 /// All sensors in the order of the text.
 pub(crate) fn sensors(
-    tree: &Tree,
+    tree: &ElementTree,
     refs: References,
     tendons: &[TendonSpec],
     report: &mut Diagnostics,
@@ -44,7 +44,7 @@ pub(crate) fn sensors(
                 return list;
             }
             let Some(number) = KINDS.iter().position(|k| k.name == node.element.name) else { continue };
-            let mut cx = Context { node, p: Props::written_props(node), refs, tendons, report };
+            let mut cx = SensorContext { node, p: Props::written_props(node), refs, tendons, report };
             let Some(sensor) = cx.sensor(number, &KINDS[number]) else { continue };
             let samples = 1 + sensor.timing.nsample.max(0) as usize;
             values += samples.saturating_mul(1 + sensor.dim as usize);
@@ -65,7 +65,7 @@ pub(crate) fn sensors(
     list
 }
 
-impl Context<'_> {
+impl SensorContext<'_> {
     fn sensor(&mut self, number: usize, kind: &'static SensorKind) -> Option<SensorSpec> {
         let cutoff = self.not_negative("cutoff");
         let noise = self.not_negative("noise");
@@ -92,7 +92,7 @@ impl Context<'_> {
             cutoff,
             noise,
             timing,
-            user: List::read(&self.p, "user"),
+            user: NumberList::read(&self.p, "user"),
         })
     }
 
@@ -102,7 +102,7 @@ impl Context<'_> {
         attribute: &str,
         code: &'static Rule,
         message: String,
-    ) -> crate::mjcf::text::diagnostic::Reported<'_> {
+    ) -> crate::mjcf::text::diagnostic::ReportedFinding<'_> {
         let span = self.node.attribute(attribute).map_or(self.node.span.clone(), |a| a.span.clone());
         self.report.error(code, span, message)
     }

@@ -2,7 +2,7 @@
 //! the trees of bounding volumes. Both are computed when the model is compiled.
 
 use super::change::{Changes, PartnerChange};
-use super::statements::Statements;
+use super::statements::StatementWriter;
 use labspec_core::{Model, disable};
 
 /// The accessors of contact bits of geoms and of bodies: types or affinities.
@@ -62,7 +62,7 @@ pub(super) fn midphase(before: &Model, now: &Model) -> Changes {
 }
 
 /// The statements for the bits of the bodies of these geoms.
-fn repair(s: &mut Statements<'_>, geoms: &[usize], kind: &str) -> Option<()> {
+fn repair(s: &mut StatementWriter<'_>, geoms: &[usize], kind: &str) -> Option<()> {
     if geoms.is_empty() {
         s.add(format!(
             "for (let g = 0; g < model.ngeom; g++) model.body_{kind}[model.geom_bodyid[g]] |= model.geom_{kind}[g]"
@@ -75,15 +75,15 @@ fn repair(s: &mut Statements<'_>, geoms: &[usize], kind: &str) -> Option<()> {
     Some(())
 }
 
-pub(super) fn repair_types(s: &mut Statements<'_>, geoms: &[usize]) -> Option<()> {
+pub(super) fn repair_types(s: &mut StatementWriter<'_>, geoms: &[usize]) -> Option<()> {
     repair(s, geoms, "contype")
 }
 
-pub(super) fn repair_affinities(s: &mut Statements<'_>, geoms: &[usize]) -> Option<()> {
+pub(super) fn repair_affinities(s: &mut StatementWriter<'_>, geoms: &[usize]) -> Option<()> {
     repair(s, geoms, "conaffinity")
 }
 
-pub(super) fn repair_midphase(s: &mut Statements<'_>, _: &[usize]) -> Option<()> {
+pub(super) fn repair_midphase(s: &mut StatementWriter<'_>, _: &[usize]) -> Option<()> {
     s.add(format!("model.opt.disableflags |= {}", disable::MIDPHASE));
     Some(())
 }

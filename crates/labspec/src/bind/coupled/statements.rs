@@ -14,13 +14,13 @@ pub(crate) struct Repair {
 }
 
 /// Statements while they are written.
-pub(super) struct Statements<'a> {
+pub(super) struct StatementWriter<'a> {
     pub(super) model: &'a Model,
     pub(super) text: &'a str,
     pub(super) repair: Repair,
 }
 
-impl Statements<'_> {
+impl StatementWriter<'_> {
     /// A name that the program does not use.
     fn name(&self, preferred: &str) -> String {
         let part = |c: char| c.is_alphanumeric() || c == '_' || c == '$';

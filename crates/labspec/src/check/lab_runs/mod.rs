@@ -12,7 +12,7 @@ use crate::finding::Finding;
 use crate::rules;
 use crate::run::{self, Budget};
 use crate::spec::{Control, ControlKind, Lab, LabAddress, Lesson};
-use crate::stress::{self, Action, Fault, FaultGroup, Interaction, Kind, StressCase};
+use crate::stress::{self, Action, Fault, FaultGroup, Interaction, InteractionKind, StressCase};
 use attempt::{Attempt, EndedRun};
 pub(crate) use display::{WatchedDisplay, moment};
 use labspec_expr::Value;
@@ -274,7 +274,7 @@ fn seconds(t: f64) -> String {
 
 /// The lab as loaded, then with each control at its ends.
 fn trials(lab: &Lab, requested: f64) -> Vec<Trial<'_>> {
-    let alone = |action| Interaction { kind: Kind::End, actions: vec![action] };
+    let alone = |action| Interaction { kind: InteractionKind::End, actions: vec![action] };
     let mut trials = vec![Trial {
         interaction: interactions::nothing(),
         length: requested,

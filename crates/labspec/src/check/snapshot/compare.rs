@@ -34,7 +34,7 @@ pub struct Divergence {
 
 /// The difference between a lab and its stored values.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Difference {
+pub(super) struct SnapshotDifference {
     /// The changes of the lab, one clause each.
     pub(super) changes: Vec<String>,
     /// The first value that differs, and the index of its trace or readout in the lab.
@@ -43,8 +43,8 @@ pub(super) struct Difference {
     pub(super) rows: usize,
 }
 
-pub(super) fn compare(stored: &StoredLab, now: &[&SnapshotRun]) -> Difference {
-    let mut all = Difference::default();
+pub(super) fn compare(stored: &StoredLab, now: &[&SnapshotRun]) -> SnapshotDifference {
+    let mut all = SnapshotDifference::default();
     let called = |run: &SnapshotRun| printable(&run.name).into_owned();
     for old in &stored.runs {
         match now.iter().find(|run| called(run) == old.name) {
@@ -65,7 +65,7 @@ pub(super) fn compare(stored: &StoredLab, now: &[&SnapshotRun]) -> Difference {
     all
 }
 
-fn compare_run(old: &StoredRun, run: &SnapshotRun, all: &mut Difference) {
+fn compare_run(old: &StoredRun, run: &SnapshotRun, all: &mut SnapshotDifference) {
     if old.about.len() == run.about.len() {
         let pairs = old.about.iter().zip(&run.about).filter(|(a, b)| a != b);
         all.changes.extend(pairs.map(|(a, b)| format!("{a} is now {b}")));
@@ -99,7 +99,12 @@ fn compare_run(old: &StoredRun, run: &SnapshotRun, all: &mut Difference) {
 }
 
 /// Pairs stored rows with those of the run: by name, and rows of equal name in order. Rows without a pair are changes.
-fn pairs(old: &StoredRun, run: &SnapshotRun, moved: bool, all: &mut Difference) -> Vec<(usize, usize)> {
+fn pairs(
+    old: &StoredRun,
+    run: &SnapshotRun,
+    moved: bool,
+    all: &mut SnapshotDifference,
+) -> Vec<(usize, usize)> {
     let mut free: Vec<usize> = (0..run.rows.len()).collect();
     let (mut pairs, mut lost) = (Vec::new(), Vec::new());
     for (i, row) in old.rows.iter().enumerate() {

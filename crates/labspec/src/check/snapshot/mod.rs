@@ -19,7 +19,7 @@ use crate::run::{Budget, StepVariant};
 use crate::source::SourceFile;
 use crate::spec::{Lab, Lesson};
 use crate::verify::{HALVED, PERTURBED_BACK, PERTURBED_START, significant};
-use compare::Difference;
+use compare::SnapshotDifference;
 use file::{SnapshotFault, StoredLab};
 use runs::{LabRuns, SnapshotRun};
 use serde::{Deserialize, Serialize};
@@ -221,7 +221,7 @@ fn compare_lab(
         return result;
     };
     let runs: Vec<&SnapshotRun> = now.runs.iter().map(|(_, run)| run).collect();
-    let Difference { changes, first, rows } = compare::compare(old, &runs);
+    let SnapshotDifference { changes, first, rows } = compare::compare(old, &runs);
     let file = lesson.snapshot.as_ref().and_then(|s| s.as_ref().ok()).map_or(String::new(), name_of);
     if let Some((d, probe)) = &first {
         let message = format!(

@@ -30,7 +30,7 @@ pub struct Completion {
 
 /// The names that a completion needs and only the models provide.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Asked<'a> {
+pub enum RequestedNames<'a> {
     /// The names of all models.
     Models,
     /// The sites of the model with this name.
@@ -45,7 +45,11 @@ pub enum Asked<'a> {
 ///
 /// `names` provides the names: `&|asked| models.names(asked)` with [`crate::bind::scene::Models`], or `&|_| Vec::new()` if
 /// no models are available.
-pub fn completions(text: &str, offset: usize, names: &dyn Fn(Asked<'_>) -> Vec<String>) -> Vec<Completion> {
+pub fn completions(
+    text: &str,
+    offset: usize,
+    names: &dyn Fn(RequestedNames<'_>) -> Vec<String>,
+) -> Vec<Completion> {
     completions_of(None, text, offset, names)
 }
 
@@ -54,7 +58,7 @@ pub(super) fn completions_of(
     whole: Option<&'static Object>,
     text: &str,
     offset: usize,
-    names: &dyn Fn(Asked<'_>) -> Vec<String>,
+    names: &dyn Fn(RequestedNames<'_>) -> Vec<String>,
 ) -> Vec<Completion> {
     let mut offset = offset.min(text.len());
     while !text.is_char_boundary(offset) {
@@ -268,7 +272,7 @@ fn values(
 }
 
 /// The names that are accepted as a value. Without a model, there are none.
-fn ask(named: Named, scope: &JsonScope, names: &dyn Fn(Asked<'_>) -> Vec<String>) -> Vec<String> {
+fn ask(named: Named, scope: &JsonScope, names: &dyn Fn(RequestedNames<'_>) -> Vec<String>) -> Vec<String> {
     let text = |key: &str| {
         let (_, raw) = scope.keys.iter().find(|(name, _)| name == key)?;
         // The text between the quotes; an invalid escape sequence is kept unchanged.
@@ -276,9 +280,9 @@ fn ask(named: Named, scope: &JsonScope, names: &dyn Fn(Asked<'_>) -> Vec<String>
         Some(serde_json::from_str::<String>(&format!("\"{raw}\"")).unwrap_or_else(|_| raw.clone()))
     };
     match (named, text("model"), text("xml")) {
-        (Named::Model, ..) => names(Asked::Models),
-        (Named::Site, Some(model), _) => names(Asked::SitesOf(&model)),
-        (Named::Site, None, Some(xml)) => names(Asked::SitesIn(&xml)),
+        (Named::Model, ..) => names(RequestedNames::Models),
+        (Named::Site, Some(model), _) => names(RequestedNames::SitesOf(&model)),
+        (Named::Site, None, Some(xml)) => names(RequestedNames::SitesIn(&xml)),
         (Named::Site, None, None) => Vec::new(),
     }
 }

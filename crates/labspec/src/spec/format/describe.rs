@@ -1,7 +1,7 @@
 //! The type of a key in words, for the reference page and for editors.
 
 use super::{Absent, Key, Limits, Type, texts};
-use crate::spec::Form;
+use crate::spec::CodeForm;
 use serde_json::{Map, Value};
 
 /// The type of a key, with its unit and its limits: `number above 0, in s`.
@@ -23,9 +23,9 @@ fn kind(of: &Type) -> String {
     match of {
         Type::Text | Type::Name(_) => "text".into(),
         Type::Html => "text, can contain HTML".into(),
-        Type::Code(Form::Expression) => "code: an expression".into(),
-        Type::Code(Form::Statements) => "code: statements".into(),
-        Type::Code(Form::Target) => "code: an assignable field".into(),
+        Type::Code(CodeForm::Expression) => "code: an expression".into(),
+        Type::Code(CodeForm::Statements) => "code: statements".into(),
+        Type::Code(CodeForm::Target) => "code: an assignable field".into(),
         Type::Number => "number".into(),
         Type::Whole => "integer".into(),
         Type::Flag => "true or false".into(),
@@ -49,7 +49,7 @@ fn plural(of: &Type) -> String {
     match of {
         Type::Text | Type::Name(_) => "texts".into(),
         Type::Html => "texts, can contain HTML".into(),
-        Type::Code(Form::Expression) => "expressions".into(),
+        Type::Code(CodeForm::Expression) => "expressions".into(),
         Type::Number => "numbers".into(),
         Type::Object(object) => format!("{} objects", object.name),
         Type::OneOf(family) => format!("{} objects", family.name),

@@ -21,7 +21,7 @@ mod schema;
 mod tests;
 mod verify;
 
-pub use complete::{Asked, Completion, completions};
+pub use complete::{Completion, RequestedNames, completions};
 pub use control::{BUTTON, CONTROL, SELECT, SLIDER};
 pub use in_lesson::completions_in;
 pub use lab::{CAMERA, EVENTS, LAB, OVERLAYS};
@@ -34,7 +34,7 @@ pub use quiz::{
 pub use schema::{Root, schema};
 pub use verify::{CLOSED_FORM, COLUMN, FIND, RUN, RUN_LENGTH, SPAN, VERIFY};
 
-use super::Form;
+use super::CodeForm;
 use labspec_finding::docs;
 
 /// An object of the format.
@@ -123,7 +123,7 @@ pub enum Type {
     /// Text that can contain HTML.
     Html,
     /// Code in the language of the lab.
-    Code(Form),
+    Code(CodeForm),
     /// A number.
     Number,
     /// An integer.

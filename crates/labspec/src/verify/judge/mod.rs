@@ -17,7 +17,7 @@ pub(crate) use task::tasks;
 use super::bound::BoundVerify;
 use super::format::significant;
 use super::numerics::CHANGES;
-use super::outcome::Outcome;
+use super::outcome::MeasuredRuns;
 use super::outcomes::Outcomes;
 use super::quote::RenderedText;
 use super::quote_checker::Quote;
@@ -149,7 +149,7 @@ fn verdicts(
     verify: &Verify,
     question: Option<&Question>,
     rendered: &RenderedText,
-    outcome: &Outcome,
+    outcome: &MeasuredRuns,
 ) -> (Option<Answer>, Vec<Quote>) {
     let outcomes =
         Outcomes { nominal: outcome.clone(), perturbed: [const { None }; CHANGES], perturbed_back: None };

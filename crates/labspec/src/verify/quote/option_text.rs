@@ -1,7 +1,7 @@
 //! The quantity that the text of an option states, with its precision according to the words.
 
 use super::context::BOUND;
-use super::number::{Form, Quoted};
+use super::number::{NumberForm, Quoted};
 use super::numeral::Chars;
 use super::quantity::{Quantity, quantities};
 use super::unit_text::Unit;
@@ -149,12 +149,12 @@ fn stated_range(q: &Quantity, before: &str) -> Option<(f64, f64)> {
     });
     let Quoted { value, half_unit, form, .. } = q.quoted;
     match (q.refused, form) {
-        (None, Form::Range(a, b) | Form::PlusMinus(a, b)) => Some((a, b)),
+        (None, NumberForm::Range(a, b) | NumberForm::PlusMinus(a, b)) => Some((a, b)),
         (None, _) => {
             let off = half_unit.max(value.abs() * if is_about { ABOUT } else { PRINTED });
             Some((value - off, value + off))
         }
-        (Some(BOUND), Form::Plain(_)) => {
+        (Some(BOUND), NumberForm::Plain(_)) => {
             let states = |list: &[&str]| list.iter().any(|w| before.ends_with(w));
             match (states(&LOWER_BOUND_WORDS), states(&UPPER_BOUND_WORDS)) {
                 (true, false) => Some((value, f64::INFINITY)),
@@ -227,7 +227,9 @@ pub(in crate::verify) fn option_ratio(option: &str) -> Option<OptionRatio> {
         .collect();
     let (text, x, share) = match (all.as_slice(), words.as_slice()) {
         ([], [(word, x)]) => (word.clone(), *x, false),
-        ([q], []) if q.refused.is_none() && matches!(q.quoted.form, Form::Plain(_) | Form::Share) => {
+        ([q], [])
+            if q.refused.is_none() && matches!(q.quoted.form, NumberForm::Plain(_) | NumberForm::Share) =>
+        {
             let text = chars.text(q.whole.start, q.whole.end);
             match q.unit.as_ref().filter(|unit| unit.is_own()) {
                 Some(unit) => (text, q.quoted.value * 10f64.powi(unit.share()?), true),

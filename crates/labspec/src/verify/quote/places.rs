@@ -26,7 +26,7 @@ struct SearchedText {
 
 /// A node of a trie over the bytes of the searched texts, from their first digits on.
 #[derive(Debug, Default)]
-struct Node {
+struct TrieNode {
     next: Vec<(u8, u32)>,
     ends: Vec<u32>,
 }
@@ -35,14 +35,14 @@ struct Node {
 #[derive(Debug)]
 pub(super) struct Search {
     needles: Vec<SearchedText>,
-    nodes: Vec<Node>,
+    nodes: Vec<TrieNode>,
     /// Number of steps, for tests that the work is proportional to the text.
     pub(super) work: usize,
 }
 
 impl Search {
     pub(super) fn new() -> Search {
-        Search { needles: Vec::new(), nodes: vec![Node::default()], work: 0 }
+        Search { needles: Vec::new(), nodes: vec![TrieNode::default()], work: 0 }
     }
 
     /// Adds a quote; returns the index of its results.
@@ -60,7 +60,7 @@ impl Search {
                 Some(next) => next,
                 None => {
                     let next = self.nodes.len();
-                    self.nodes.push(Node::default());
+                    self.nodes.push(TrieNode::default());
                     if let Some(n) = self.nodes.get_mut(node) {
                         n.next.push((b, next as u32));
                     }

@@ -1,6 +1,6 @@
 //! Reads the number that a quote states. A form that is not understood is an error that names it; nothing is guessed.
 
-use super::number::{Form, Quoted, Style};
+use super::number::{NumberForm, Quoted, Style};
 use super::numeral::Chars;
 use super::quantity::{Quantity, as_share, quantities, singles};
 use super::unit_text::Unit;
@@ -85,7 +85,7 @@ pub(in crate::verify) fn read_quote(text: &str) -> Result<QuoteReading, Unread> 
     let several = "it contains more than one number";
     let others = all.get(at + 1..).unwrap_or_default();
     reading.last = others.is_empty();
-    if !matches!(reading.read.form, Form::PlusMinus(..) | Form::Range(..)) {
+    if !matches!(reading.read.form, NumberForm::PlusMinus(..) | NumberForm::Range(..)) {
         reading.ambiguities.extend(others.iter().map(|q| (q.quoted, several)));
         if !others.is_empty() {
             reading.is_ambiguous = reading.is_ambiguous.or(Some(several));
@@ -103,7 +103,7 @@ fn of_quantity(q: &Quantity) -> Result<QuoteReading, Unread> {
         return Err(Unread::Form("a number too large to compute with"));
     }
     let why = match q.quoted.form {
-        Form::Plain(Style { group: Some(','), .. }) => "its comma may separate thousands or decimals",
+        NumberForm::Plain(Style { group: Some(','), .. }) => "its comma may separate thousands or decimals",
         _ => "its space may separate thousands or two numbers",
     };
     Ok(QuoteReading {

@@ -6,7 +6,7 @@ use super::markdown_cell::unit_of_column;
 use super::pieces::rendered_pieces;
 use super::places::{MAX_PLACES, Readable, Search};
 use super::quote_claim::QuotePlace;
-use super::table::Table;
+use super::table::RenderedTable;
 use super::{fold, html, prose};
 use crate::run::Cell;
 use crate::source::{SourceMap, Text};
@@ -21,7 +21,7 @@ pub struct RenderedText {
     /// The place of a quote that is not rendered: in code, a key, a listing.
     hidden: BTreeMap<String, Range<usize>>,
     /// The tables, if a claim refers to one.
-    tables: Vec<Table>,
+    tables: Vec<RenderedTable>,
 }
 
 /// Maximum number of searched quotes without a number: each needs a pass through the text.
@@ -94,13 +94,13 @@ impl RenderedText {
             let quote = quoted.quote.as_str();
             (quote.to_string(), self.found(quote).iter().filter(|p| inside(&&p.at)).cloned().collect())
         });
-        let begins = |t: &&Table| t.head.first().is_some_and(|cell| inside(&&cell.span));
+        let begins = |t: &&RenderedTable| t.head.first().is_some_and(|cell| inside(&&cell.span));
         let tables = self.tables.iter().filter(|_| !verify.table.is_empty()).filter(begins);
         RenderedText { places: places.collect(), hidden: BTreeMap::new(), tables: tables.cloned().collect() }
     }
 
     /// The tables with these columns.
-    pub(super) fn tables<'t>(&'t self, headings: &'t [&str]) -> impl Iterator<Item = &'t Table> {
+    pub(super) fn tables<'t>(&'t self, headings: &'t [&str]) -> impl Iterator<Item = &'t RenderedTable> {
         self.tables.iter().filter(move |table| headings.iter().all(|h| table.column(h).is_some()))
     }
 
