@@ -80,8 +80,9 @@ pub(super) fn report_results(
     let mut sources: Vec<&SourceFile> = results.checked.iter().map(|c| &c.lesson.file).collect();
     sources.extend(&results.sources);
     write_files(options, results, &sources)?;
-    let changes =
-        options.previous.map(|(file, old)| (*file, since::changes(old, &reproduction::now(file, results))));
+    let changes = options
+        .previous
+        .map(|(file, old)| (*file, since::changes(old, &reproduction::current(file, results))));
     match options.format {
         _ if options.statistics => print(&report::statistics(&results.findings))?,
         CheckFormat::Human => print(&human_text(options, outcome, results, &sources, changes.as_ref()))?,
@@ -127,7 +128,7 @@ fn write_files(
         Baseline::new(file).write(file, &results.findings, sources)?;
     }
     if let Some(file) = options.record.filter(|_| !interrupted()) {
-        reproduction::write(file, &reproduction::now(file, results))?;
+        reproduction::write(file, &reproduction::current(file, results))?;
     }
     if let Some(file) = options.judge_request.filter(|_| !interrupted()) {
         judge::write_request(file, results)?;

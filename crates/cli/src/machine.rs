@@ -147,7 +147,8 @@ struct DivergenceRow<'a> {
     #[serde(skip_serializing_if = "NonFinite::is_empty")]
     nonfinite: NonFinite,
     stored: &'a str,
-    now: &'a str,
+    #[serde(rename = "now")]
+    current: &'a str,
     tolerance: Option<f64>,
     line: usize,
 }
@@ -164,7 +165,7 @@ pub(super) fn snapshot_row(k: &SnapshotResult) -> SnapshotRow<'_> {
             time: d.time,
             nonfinite: nonfinite(&[("time", &d.time)]),
             stored: &d.stored,
-            now: &d.now,
+            current: &d.current,
             tolerance: d.tolerance,
             line: d.line,
         }),

@@ -81,8 +81,8 @@ impl OutputKind<'_> {
         match self {
             OutputKind::New => Some("a file already exists there"),
             OutputKind::Lesson(text) => {
-                let same =
-                    old.len() == text.len() as u64 && fs::read(place).is_ok_and(|now| now == text.as_bytes());
+                let same = old.len() == text.len() as u64
+                    && fs::read(place).is_ok_and(|current| current == text.as_bytes());
                 (!same).then_some("the file has changed since it was read, or is not UTF-8")
             }
             _ if self.is_input(place) => Some("it is a lesson, a model or a part of one"),

@@ -109,7 +109,7 @@ pub(super) struct VerdictRecord {
 }
 
 /// The record of the current check, as it would be written to this file.
-pub(super) fn now(file: &Path, results: &CourseResults) -> ReproductionRecord {
+pub(super) fn current(file: &Path, results: &CourseResults) -> ReproductionRecord {
     let folder = folder_of(file);
     let both = results.checked.iter().zip(&results.bases);
     let mut lessons: Vec<LessonRecord> = both

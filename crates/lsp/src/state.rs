@@ -136,13 +136,13 @@ impl<'c> ServerState<'c> {
     /// Sets the text of a file in the editor, or `None` if it is not open. Documents that depend on the file are checked again.
     pub(super) fn set_text(&mut self, path: &Path, text: Option<&str>) {
         let sources = self.contexts.sources();
-        let now = || sources.text(path, MAX_FILE, "a lesson or a model").ok();
-        let before = now();
+        let current = || sources.text(path, MAX_FILE, "a lesson or a model").ok();
+        let before = current();
         match text {
             Some(text) => self.contexts.overlay.put(path, text),
             None => self.contexts.overlay.close(path),
         }
-        if before == now() {
+        if before == current() {
             return;
         }
         match kind_of(path) {

@@ -105,7 +105,8 @@ struct MarginRow<'a> {
     knob: String,
     who: &'a str,
     unit: &'static str,
-    now: f64,
+    #[serde(rename = "now")]
+    current: f64,
     largest: Option<f64>,
     breaks: Option<f64>,
     how: Option<BreakRow<'a>>,
@@ -227,7 +228,7 @@ fn margin_row(m: &Margin) -> MarginRow<'_> {
         knob: key(m.knob.description()),
         who: &m.subject,
         unit: m.unit,
-        now: m.now,
+        current: m.current,
         largest: m.largest,
         breaks: m.breaks,
         how: m.how.as_ref().map(|(kind, subject)| BreakRow { kind: key(kind.description()), who: subject }),

@@ -207,9 +207,9 @@ fn margin(m: &Margin) -> [String; 6] {
         .map_or(String::new(), |(kind, subject)| format!("{}: {}", kind.description(), printable(subject)));
     [
         format!("{}{subject}", m.knob.description()),
-        value(m.now),
+        value(m.current),
         largest,
-        m.largest.map_or(String::new(), |x| two_digits(x / m.now)),
+        m.largest.map_or(String::new(), |x| two_digits(x / m.current)),
         m.bound.map_or("–".into(), value),
         how,
     ]

@@ -328,9 +328,9 @@ impl<S: Scope> Data<S> {
             self.version = m.contents.version;
             return Ok(());
         };
-        let now = self.fields.meter.cost;
-        let calm = now >= self.assumed.settled;
-        let unrest = now.saturating_add(SETTLED.saturating_mul(self.fields.meter.pass()));
+        let current = self.fields.meter.cost;
+        let calm = current >= self.assumed.settled;
+        let unrest = current.saturating_add(SETTLED.saturating_mul(self.fields.meter.pass()));
         let changed = planned.changed(&m.contents);
         let mut narrower = whole && self.assumed.wide && (calm || self.assumed.due);
         if !changed.difference(&self.assumed.any).is_empty() {

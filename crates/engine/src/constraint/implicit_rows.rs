@@ -48,18 +48,18 @@ fn growth(h: f64, [k, b, imp, _]: &[f64; 4]) -> f64 {
 fn soften_block(m: &Model, d: &mut Fields, jac: &ConstraintJacobian, metric: &[f64], b: &JacobianBlock) {
     let (row, n) = (b.row as usize, b.nrow as usize);
     // Ratio of Σ J²/M' to Σ J²/M, using only the diagonals.
-    let (mut now, mut before) = ([0.0; MOST_ROWS], [0.0; MOST_ROWS]);
+    let (mut current, mut before) = ([0.0; MOST_ROWS], [0.0; MOST_ROWS]);
     for (&k, v) in jac.terms(b) {
         let k = k as usize;
         let inertia = d.M[mass::diagonal(m, k)];
         for (r, v) in v.iter().enumerate() {
-            now[r] += v * v / metric[k];
+            current[r] += v * v / metric[k];
             before[r] += v * v / inertia;
         }
     }
     let kbip = &rows::<4>(&d.efc_KBIP)[row..];
     let softer = |r: usize| {
-        let lighter = if before[r] > 0.0 { now[r] / before[r] } else { 1.0 };
+        let lighter = if before[r] > 0.0 { current[r] / before[r] } else { 1.0 };
         lighter / growth(m.opt.timestep, &kbip[r])
     };
     let old = &d.efc_R[row..row + n];

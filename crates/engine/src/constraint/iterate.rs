@@ -50,8 +50,8 @@ impl Iterate {
     pub(super) fn resize(&mut self, nv: usize, nefc: usize) {
         if self.ma.len() != nv {
             let old = [&mut self.grad_old, &mut self.step_old];
-            let now = [&mut self.ma, &mut self.grad, &mut self.step, &mut self.search, &mut self.mv];
-            for v in now.into_iter().chain(old) {
+            let current = [&mut self.ma, &mut self.grad, &mut self.step, &mut self.search, &mut self.mv];
+            for v in current.into_iter().chain(old) {
                 v.resize(nv, 0.0);
             }
         }

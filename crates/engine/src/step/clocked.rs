@@ -40,9 +40,9 @@ fn lap(run: Run, stage: Option<Stage>, m: &Model, d: &mut Fields, s: &mut StepSc
     let clock = s.watch.as_ref().map(|watch| watch.clock);
     let before = clock.map(|clock| (d.meter.cost, clock()));
     run(m, d, s);
-    let now = clock.map(|clock| clock());
-    if let (Some(watch), Some((work, time)), Some(now)) = (&mut s.watch, before, now) {
-        watch.laps.add(stage, now.saturating_sub(time), d.meter.cost.saturating_sub(work));
+    let current = clock.map(|clock| clock());
+    if let (Some(watch), Some((work, time)), Some(current)) = (&mut s.watch, before, current) {
+        watch.laps.add(stage, current.saturating_sub(time), d.meter.cost.saturating_sub(work));
     }
 }
 

@@ -49,9 +49,9 @@ fn difference(out: &mut [f64], a: &[f64], b: &[f64], h: f64) -> bool {
     let (n, mut changed) = (out.len(), false);
     let (a, b) = (&a[..n], &b[..n]);
     for k in 0..n {
-        let now = a[k] - h * b[k];
-        changed |= now.to_bits() != out[k].to_bits();
-        out[k] = now;
+        let current = a[k] - h * b[k];
+        changed |= current.to_bits() != out[k].to_bits();
+        out[k] = current;
     }
     changed
 }

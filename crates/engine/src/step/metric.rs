@@ -234,17 +234,17 @@ impl Metric {
             }
             self.step.copy_from_slice(&self.residual);
             mass::solve(m, &self.ld, &self.diag_inv, &mut self.step, 0..m.nv);
-            let now = dot_slice(&self.residual, &self.step);
+            let current = dot_slice(&self.residual, &self.step);
             for (p, z) in self.search.iter_mut().zip(&self.step) {
-                *p = z + now / before * *p;
+                *p = z + current / before * *p;
             }
-            before = now;
+            before = current;
             self.multiply(m, d);
             let curvature = dot_slice(&self.search, &self.product);
-            if now <= 0.0 || curvature <= 0.0 {
+            if current <= 0.0 || curvature <= 0.0 {
                 break;
             }
-            let alpha = now / curvature;
+            let alpha = current / curvature;
             for i in 0..m.nv {
                 x[i] += alpha * self.search[i];
                 self.residual[i] -= alpha * self.product[i];

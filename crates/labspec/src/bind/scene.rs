@@ -284,12 +284,12 @@ impl Models {
                 // The text of a model and the bytes of the same file, when it is attached, have different digests.
                 let at = (named, part.path.is_empty(), part.limit);
                 let cached = lock_cache(&self.marks).get(&at).cloned();
-                let now = cached.unwrap_or_else(|| {
-                    let now = parts::hash_now(hash, &path, files, &part.path, part.limit);
-                    lock_cache(&self.marks).insert(at, now.clone());
-                    now
+                let current = cached.unwrap_or_else(|| {
+                    let current = parts::hash_now(hash, &path, files, &part.path, part.limit);
+                    lock_cache(&self.marks).insert(at, current.clone());
+                    current
                 });
-                now == part.hash
+                current == part.hash
             })
     }
 }

@@ -138,7 +138,7 @@ fn options(model: &Model) -> BTreeMap<&'static str, Vec<f64>> {
     written
         .into_iter()
         .zip(plain)
-        .filter(|((name, now), (_, default))| now != default && !is_reported(name))
+        .filter(|((name, current), (_, default))| current != default && !is_reported(name))
         .map(|(written, _)| written)
         .collect()
 }

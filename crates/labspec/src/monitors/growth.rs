@@ -222,11 +222,11 @@ pub fn observe<S: Scope>(w: &mut GrowthMonitor, m: &Model, d: &Data<S>) -> Optio
 
 /// Compares the energy of the current state with that of the start.
 fn compare<S: Scope>(w: &mut GrowthMonitor, m: &Model, d: &Data<S>, start: StartEnergy) -> Option<Growth> {
-    let (copied, now) = (w.copied.fields(), d.fields());
-    let same = copied.ctrl == now.ctrl
-        && copied.mocap_pos == now.mocap_pos
-        && copied.mocap_quat == now.mocap_quat
-        && copied.eq_active == now.eq_active
+    let (copied, current) = (w.copied.fields(), d.fields());
+    let same = copied.ctrl == current.ctrl
+        && copied.mocap_pos == current.mocap_pos
+        && copied.mocap_quat == current.mocap_quat
+        && copied.eq_active == current.eq_active
         && !applied(d);
     if !same {
         restart(w, m, d);
@@ -234,11 +234,11 @@ fn compare<S: Scope>(w: &mut GrowthMonitor, m: &Model, d: &Data<S>, start: Start
     }
     let StartEnergy { energy: before, available_energy, lift } = start;
     take(&mut w.copied, d);
-    let now = mechanical_energy(m, &mut w.copied).ok().flatten()?;
+    let current = mechanical_energy(m, &mut w.copied).ok().flatten()?;
     update_inertia_scale(w, m);
-    let given = before.potential() - now.potential();
-    let gain = now.kinetic - before.kinetic - given;
-    let there = available_energy + given.max(now.elastic.abs());
+    let given = before.potential() - current.potential();
+    let gain = current.kinetic - before.kinetic - given;
+    let there = available_energy + given.max(current.elastic.abs());
     let dof_of_negative_damping = dof_of_negative_damping(m, d.fields());
     let sudden = if dof_of_negative_damping.is_some() { 1.0 } else { w.sudden };
     // A gain of NaN exceeds no bound.
@@ -251,7 +251,7 @@ fn compare<S: Scope>(w: &mut GrowthMonitor, m: &Model, d: &Data<S>, start: Start
         return None;
     }
     // Elastic energy oscillates with a large amplitude just below the stability limit, and returns.
-    let stiff = before.elastic != 0.0 || now.elastic != 0.0;
+    let stiff = before.elastic != 0.0 || current.elastic != 0.0;
     let turn = if stiff { 0.0 } else { largest_rotation(m, d.fields()) };
     if w.lasted == 0 && w.leaps == 0 {
         w.since = d.time();

@@ -126,7 +126,7 @@ fn measure(w: &mut TunnellingMonitor, f: &Fields) -> f64 {
 
 /// For every pair of a wall and a geom that is fast relative to it: whether it is near, and whether it passed through.
 fn walls(w: &TunnellingMonitor, m: &Model, f: &Fields) -> (bool, Option<Through>) {
-    let (now, mut near) = (rows::<3>(&f.geom_xpos), false);
+    let (current, mut near) = (rows::<3>(&f.geom_xpos), false);
     for &wall in w.geoms.iter().filter(|&&g| w.sizes[g].thickness.is_finite()) {
         let GeomSize { thickness, length } = w.sizes[wall];
         for &g in w.geoms.iter().filter(|&&g| g != wall && w.sizes[g].thickness.is_finite()) {
@@ -134,7 +134,8 @@ fn walls(w: &TunnellingMonitor, m: &Model, f: &Fields) -> (bool, Option<Through>
             if moved <= 0.5 * FAST_DISPLACEMENT * thickness {
                 continue;
             }
-            let gap = [0, 1, 2].map(|k| now[g][k] - now[wall][k]).map(|x| x * x).iter().sum::<f64>().sqrt();
+            let gap =
+                [0, 1, 2].map(|k| current[g][k] - current[wall][k]).map(|x| x * x).iter().sum::<f64>().sqrt();
             let soon = moved * (1.0 + MARGIN * f64::from(STEPS_PER_MEASUREMENT));
             if gap > 0.5 * (length + w.sizes[g].length) + soon || !may_touch(m, g, wall).unwrap_or(false) {
                 continue;

@@ -88,7 +88,7 @@ fn late_variable(ready: &PreparedLab<'_>, slots: &[u32]) -> Option<(u32, f64, f6
         (values(&mut session), vec![true; slots.len()], usize::MAX);
     for _ in 0..steps {
         let fields = session.world.data.fields();
-        let (now, time) = (fields.ncon, session.world.data.time());
+        let (current, time) = (fields.ncon, session.world.data.time());
         session.step();
         if session.ended().is_some() {
             return None;
@@ -98,14 +98,14 @@ fn late_variable(ready: &PreparedLab<'_>, slots: &[u32]) -> Option<(u32, f64, f6
             let (before, after) = (previous.get(i).copied().flatten(), new.get(i).copied().flatten());
             let changes = before.map(f64::to_bits) != after.map(f64::to_bits);
             let quiet = changed.get(i).is_some_and(|c| !c);
-            if changes && quiet && now > contacts && time > 0.0 && after == Some(time) {
+            if changes && quiet && current > contacts && time > 0.0 && after == Some(time) {
                 return Some((*slot, time, session.world.model.opt.timestep));
             }
             if let Some(c) = changed.get_mut(i) {
                 *c = changes;
             }
         }
-        (previous, contacts) = (new, now);
+        (previous, contacts) = (new, current);
     }
     None
 }

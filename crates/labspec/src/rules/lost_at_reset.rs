@@ -63,24 +63,24 @@ fn describe_lost(
         action.reset = false;
     }
     let key = FieldKey(field.index() as u32);
-    let now = |session: &Session<'_>| -> Vec<f64> {
+    let current = |session: &Session<'_>| -> Vec<f64> {
         (0..session.world.len(key)).map_while(|i| session.world.get(key, i)).collect()
     };
     let differs = |a: &[f64], b: &[f64]| a.iter().zip(b).position(|(x, y)| x.to_bits() != y.to_bits());
     let with = |chosen: &Value| {
         let mut session = Session::start(&programs, model, Start::of_lab(lab));
         session.set_control(index, chosen.clone());
-        let set = now(&session);
+        let set = current(&session);
         session.reset();
-        let reset = now(&session);
+        let reset = current(&session);
         let at = differs(&set, &reset)?;
         // A controller may set an input again before the first step.
         if field.info().kind == Kind::Input && programs.controller.is_some() {
             session.step();
-            let after_reset = now(&session);
+            let after_reset = current(&session);
             session.set_control(index, chosen.clone());
             session.step();
-            differs(&now(&session), &after_reset)?;
+            differs(&current(&session), &after_reset)?;
         }
         let name = format!("data.{}[{at}]", field.info().name);
         let [set, reset] = [&set, &reset].map(|list| digits(list.get(at).copied().unwrap_or(f64::NAN), 6));

@@ -61,9 +61,9 @@ pub(crate) struct RunWatcher<'h> {
 impl RunWatcher<'_> {
     /// Executes the actions that are due; returns whether there were any.
     fn act(&mut self, session: &mut Session<'_>) -> bool {
-        let now = session.world.data.time();
+        let current = session.world.data.time();
         let mut acted = false;
-        while let Some(action) = self.pending.front().filter(|a| now >= a.time - 1e-12).copied() {
+        while let Some(action) = self.pending.front().filter(|a| current >= a.time - 1e-12).copied() {
             match &action.value {
                 Some(value) => session.set_control(action.control, value.clone()),
                 None => session.press(action.control),

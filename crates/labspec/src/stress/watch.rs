@@ -53,7 +53,7 @@ struct TouchingPair {
     /// The thickness of the smaller body, m.
     size: f64,
     on: bool,
-    now: bool,
+    current: bool,
     switches: usize,
     blocks: usize,
     /// The current depth, the time since which it has been deep, and the largest ratio of depth to size.
@@ -118,12 +118,12 @@ impl RunMonitor {
         let mut passed = Vec::new();
         for pair in self.pairs.iter_mut().filter(|p| !p.done) {
             let [g, p] = pair.geoms;
-            let Some(now) = centre_in_frame(&d.geom_xpos, &d.geom_xmat, g, p) else { continue };
-            if let Some(before) = pair.before.replace(now)
-                && through(m, p, before, now)
+            let Some(current) = centre_in_frame(&d.geom_xpos, &d.geom_xmat, g, p) else { continue };
+            if let Some(before) = pair.before.replace(current)
+                && through(m, p, before, current)
             {
                 pair.done = true;
-                self.faults.push(tunnelling(m, d, pair.geoms, before, now));
+                self.faults.push(tunnelling(m, d, pair.geoms, before, current));
                 passed.push([p, g]);
             }
         }
@@ -147,15 +147,15 @@ impl RunMonitor {
                 None => continue,
             };
             if let Some(touch) = self.touching.get_mut(i) {
-                touch.now |= contact.efc_address.is_some();
+                touch.current |= contact.efc_address.is_some();
                 touch.depth_now = touch.depth_now.max(-contact.dist);
             }
         }
         self.steps += 1;
         let ends = self.steps.is_multiple_of(BLOCK);
         for touch in &mut self.touching {
-            touch.switches += usize::from(touch.now != touch.on);
-            (touch.on, touch.now) = (touch.now, false);
+            touch.switches += usize::from(touch.current != touch.on);
+            (touch.on, touch.current) = (touch.current, false);
             touch.update_depths(d.time);
             let [g, p] = touch.geoms;
             let place = centre_in_frame(&d.geom_xpos, &d.geom_xmat, g, p);
@@ -204,7 +204,7 @@ impl TouchingPair {
             geoms,
             size: geoms.map(|g| body_thickness(m, body_of(m, g))).into_iter().fold(f64::INFINITY, f64::min),
             on: false,
-            now: false,
+            current: false,
             switches: 0,
             blocks: 0,
             depth_now: 0.0,

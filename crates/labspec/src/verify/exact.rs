@@ -349,7 +349,9 @@ fn wrong(run: &Differences, i: usize, difference: f64, how: String) -> Option<La
 
 /// The index and the magnitude of the largest of `n` numbers.
 fn largest(n: usize, x: impl Fn(usize) -> f64) -> (usize, f64) {
-    (0..n).map(|i| (i, x(i).abs())).fold((0, 0.0), |best, now| if now.1 > best.1 { now } else { best })
+    (0..n)
+        .map(|i| (i, x(i).abs()))
+        .fold((0, 0.0), |best, current| if current.1 > best.1 { current } else { best })
 }
 
 /// The common data of the runs.

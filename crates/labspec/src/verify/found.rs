@@ -180,8 +180,8 @@ impl BoundVerify<'_> {
         }
         // A claim that is false may be true only for rare values, so it is only tested with each number alone.
         match outlook(inputs) {
-            Some((now, _)) if now != ClaimValue::Holds(false) => {
-                self.differs_somewhere(claim, inputs, now, &mut |inputs| Some(outlook(inputs)?.0))
+            Some((current, _)) if current != ClaimValue::Holds(false) => {
+                self.differs_somewhere(claim, inputs, current, &mut |inputs| Some(outlook(inputs)?.0))
             }
             _ => true,
         }

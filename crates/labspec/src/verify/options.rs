@@ -248,21 +248,22 @@ impl OptionJudgement<'_> {
         weights: &mut [Weight],
     ) -> Option<Finding> {
         let again = evaluate_conditions(bound, outcome, self.verify, false, &mut Vec::new());
-        for (weight, now) in weights.iter_mut().zip(again.iter().flatten()) {
-            weight.widen(now.as_ref().and_then(|(_, condition)| condition.margin));
+        for (weight, current) in weights.iter_mut().zip(again.iter().flatten()) {
+            weight.widen(current.as_ref().and_then(|(_, condition)| condition.margin));
         }
         let first = self.right.first().copied().unwrap_or(0);
         let (i, what) = match &again {
             Err(reason) => (first, reason.clone()),
-            Ok(now) => {
-                let now = now.iter().enumerate().map(|(i, value)| option_weight(i, value.as_ref()));
-                let (now, _) = now.zip(weights.iter()).find(|(now, then)| now.holds != then.holds)?;
-                let i = now.option.unwrap_or(first);
-                (i, format!("then the condition of {} {}", self.name(i), now.describe()))
+            Ok(current) => {
+                let current = current.iter().enumerate().map(|(i, value)| option_weight(i, value.as_ref()));
+                let (current, _) =
+                    current.zip(weights.iter()).find(|(current, then)| current.holds != then.holds)?;
+                let i = current.option.unwrap_or(first);
+                (i, format!("then the condition of {} {}", self.name(i), current.describe()))
             }
         };
-        let now = format!("with the numerics of the lesson, this {}", self.describe(i));
-        Some(fragile_answer(self.keyed.clone(), how, &what).related(self.condition(i), now))
+        let current = format!("with the numerics of the lesson, this {}", self.describe(i));
+        Some(fragile_answer(self.keyed.clone(), how, &what).related(self.condition(i), current))
     }
 
     /// Names the undecided options.
@@ -335,14 +336,14 @@ pub(super) fn compare_options(
         Ok(values) => values,
         Err(reason) => return SameOptions::Open(reason),
     };
-    let now = values.iter().enumerate().map(|(i, found)| option_weight(i, found.as_ref()));
+    let current = values.iter().enumerate().map(|(i, found)| option_weight(i, found.as_ref()));
     let mut least = f64::INFINITY;
-    for (now, then) in now.zip(weights) {
-        if now.holds != then.holds {
-            let i = now.option.unwrap_or(0);
-            return SameOptions::No(format!("the condition of option {i} {}", now.describe()));
+    for (current, then) in current.zip(weights) {
+        if current.holds != then.holds {
+            let i = current.option.unwrap_or(0);
+            return SameOptions::No(format!("the condition of option {i} {}", current.describe()));
         }
-        least = least.min(now.margin.map_or(f64::INFINITY, f64::abs));
+        least = least.min(current.margin.map_or(f64::INFINITY, f64::abs));
     }
     SameOptions::Yes(least)
 }

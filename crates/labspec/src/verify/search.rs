@@ -137,13 +137,13 @@ fn halve(find: &Find, try_at: &mut dyn FnMut(f64) -> Option<TriedValue>) -> Opti
         if high - low <= find.tol.value || middle <= low || middle >= high {
             break;
         }
-        let now = try_at(middle)?;
-        if now.holds == find.largest {
+        let current = try_at(middle)?;
+        if current.holds == find.largest {
             low = middle
         } else {
             high = middle
         }
-        tried.push((middle, now));
+        tried.push((middle, current));
     }
     for x in TEST_DISTANCES.iter().flat_map(|part| [low - part * (to - from), high + part * (to - from)]) {
         if x > from && x < to {

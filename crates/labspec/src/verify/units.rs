@@ -68,7 +68,7 @@ fn by_scale(
         _ => None,
     };
     let measures: Vec<(usize, Dimension)> = claim.reads.iter().map(measure).collect::<Option<_>>()?;
-    let now = value(&inputs)?;
+    let current = value(&inputs)?;
     let mut all = Dimension::NUMBER;
     for base in 0..BASES {
         let mut powers = SCALES.iter().map(|scale| {
@@ -76,7 +76,7 @@ fn by_scale(
             for (place, d) in &measures {
                 other.set_value(*place, inputs.at(*place)? * scale.powf(d.power_of(base)));
             }
-            let ratio = value(&other)? / now;
+            let ratio = value(&other)? / current;
             (ratio > 0.0).then(|| ratio.ln() / scale.ln())
         });
         let (first, second) = (powers.next()??, powers.next()??);

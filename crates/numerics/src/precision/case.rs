@@ -245,17 +245,17 @@ impl<'a> PrecisionCase<'a> {
         let every = sampling_plan.count.div_ceil(CONSERVATION_SAMPLES).max(1);
         let before = session.spent();
         let mut sampling = 0;
-        let mut now = vec![0.0; self.targets.len()];
+        let mut current = vec![0.0; self.targets.len()];
         let sample = |session: &mut Session<'_>, made: usize| {
             let began = session.spent();
             let sampled = made.is_multiple_of(sampling_plan.steps);
             if request.fresh && made > 0 {
                 session.refresh();
             }
-            self.sample_targets(session, &mut now, sampled.then_some(&mut record));
+            self.sample_targets(session, &mut current, sampled.then_some(&mut record));
             record.observe(session);
             if let Some(finder) = &mut finder {
-                finder.observe_step(session, &now, &evaluate);
+                finder.observe_step(session, &current, &evaluate);
             }
             if sampled && (made / sampling_plan.steps).is_multiple_of(every) {
                 energy.sample(session, &mut record);
@@ -289,13 +289,13 @@ impl<'a> PrecisionCase<'a> {
     fn sample_targets(
         &self,
         session: &mut Session<'_>,
-        now: &mut [f64],
+        current: &mut [f64],
         mut record: Option<&mut SampledRun>,
     ) {
         for (i, target) in self.targets.iter().enumerate() {
-            now[i] = self.value(session, i);
+            current[i] = self.value(session, i);
             if let Some(record) = &mut record {
-                record.values[i].push(now[i]);
+                record.values[i].push(current[i]);
                 let exact = target.exact.as_ref().and_then(|b| session.evaluate(&b.program, &b.text));
                 record.exact[i].push(exact.map_or(f64::NAN, |v| v.to_number()));
             }

@@ -26,13 +26,13 @@ pub(super) fn turning_point(
     let at: Vec<f64> = (0..count).map(|j| direction * bench.value(j, 0.0, target, evaluate)).collect();
     // A displayed value may belong to the previous state.
     let middle = (1..count - 1).max_by(|&a, &b| at[a].total_cmp(&at[b]))?;
-    let [before, now, after] = [at.get(middle + 1)?, at.get(middle)?, at.get(middle - 1)?];
+    let [before, current, after] = [at.get(middle + 1)?, at.get(middle)?, at.get(middle - 1)?];
     let (h, next) = (bench.history.step(middle + 1), bench.history.step(middle));
     let start = bench.history.time(middle + 1);
     let top = direction > 0.0;
     let parabola = || {
         // Divided differences. The steps of a run have equal lengths up to rounding.
-        let (rise, fall) = ((now - before) / h, (after - now) / next);
+        let (rise, fall) = ((current - before) / h, (after - current) / next);
         let curvature = (fall - rise) / (0.5 * (h + next));
         let x = 0.5 * h - rise / curvature;
         let at = start + if x.is_finite() { x.clamp(0.0, h + next) } else { h };

@@ -167,16 +167,17 @@ impl ComparisonData<'_, '_> {
                 break;
             }
             report_progress(&format!("setting {} of {}: {}", i + 1, settings.len(), setting.integrator.name));
-            let mut now = vec![self.row(setting)?];
+            let mut current = vec![self.row(setting)?];
             let begins = rows.last().is_none_or(|r| r.setting.integrator != setting.integrator);
             let longest = begins && setting.solver.is_none() && setting.timestep == self.ladder.coarse();
             while longest
-                && now.last().is_some_and(|r| r.status == RunStatus::Good && r.score <= 1.0)
-                && let Some(step) = now.last().and_then(|r| self.ladder.longer(r.setting.timestep, self.case))
+                && current.last().is_some_and(|r| r.status == RunStatus::Good && r.score <= 1.0)
+                && let Some(step) =
+                    current.last().and_then(|r| self.ladder.longer(r.setting.timestep, self.case))
             {
-                now.push(self.row(&Setting { timestep: step, ..*setting })?);
+                current.push(self.row(&Setting { timestep: step, ..*setting })?);
             }
-            rows.extend(now.into_iter().rev());
+            rows.extend(current.into_iter().rev());
         }
         Ok(rows)
     }

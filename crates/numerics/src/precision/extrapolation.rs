@@ -76,12 +76,12 @@ pub(super) fn extrapolated(
         if too_long(case, step) {
             break;
         }
-        let Some(now) = run(case, integrator::RKMK8, step, ask)? else { break };
-        let row = next_row(&now, &before);
+        let Some(current) = run(case, integrator::RKMK8, step, ask)? else { break };
+        let row = next_row(&current, &before);
         for (entry, coarse) in row.iter().zip(&before) {
             let uncertain = so_far(entry.values.iter().zip(&coarse.values));
             let (entry, coarse) = (entry.clone(), coarse.clone());
-            let one = BestEntry { entry, coarse, uncertain, run: now.clone(), step };
+            let one = BestEntry { entry, coarse, uncertain, run: current.clone(), step };
             if best.as_ref().is_none_or(|b| one.worst() < b.worst()) {
                 best = Some(one);
             }

@@ -97,10 +97,10 @@ impl Compared {
         // Digits: a number within its uncertainty of a rounding boundary may be displayed as either neighbour.
         let slack = uncertainty + DIGITS_ROUND * self.size;
         let print = |x: f64| printed(x, self.digits);
-        let (low, now, high) = (print(exact - slack), print(displayed), print(exact + slack));
+        let (low, current, high) = (print(exact - slack), print(displayed), print(exact + slack));
         let unit = 2.0 * self.invisible_error;
         let [most, least] = parts(unit);
-        if !(low..=high).contains(&now) {
+        if !(low..=high).contains(&current) {
             return [1.0 + most, 1.0 + least];
         }
         [

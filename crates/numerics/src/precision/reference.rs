@@ -64,7 +64,7 @@ fn direct(case: &PrecisionCase<'_>, timestep: f64) -> Result<Option<ReferenceSol
             continue;
         };
         let mine = (integrator::RKMK8, step);
-        let now = match &first {
+        let current = match &first {
             Some((method_step, seen)) => {
                 let how = format!("{} and {}", in_words(*method_step), in_words(mine));
                 AgreeingRuns { reference: compare(seen.clone(), &second, how), methods: [*method_step, mine] }
@@ -77,9 +77,9 @@ fn direct(case: &PrecisionCase<'_>, timestep: f64) -> Result<Option<ReferenceSol
                 AgreeingRuns { reference: compare(finer, &second, how), methods: [half, mine] }
             }
         };
-        let agreed = agrees(&now.reference);
-        if best.as_ref().is_none_or(|b| worst(&now.reference) < worst(&b.reference)) {
-            best = Some(now);
+        let agreed = agrees(&current.reference);
+        if best.as_ref().is_none_or(|b| worst(&current.reference) < worst(&b.reference)) {
+            best = Some(current);
         }
         if agreed {
             break;

@@ -112,7 +112,7 @@ impl Times {
     /// have no effect on the median.
     fn sums(&self) -> [f64; 3] {
         let all = self.chunks.iter().map(|times| quartiles(&mut times.clone()));
-        all.fold([0.0; 3], |sum, now| [sum[0] + now[0], sum[1] + now[1], sum[2] + now[2]])
+        all.fold([0.0; 3], |sum, current| [sum[0] + current[0], sum[1] + current[1], sum[2] + current[2]])
     }
 }
 
@@ -284,9 +284,9 @@ fn observe_run(case: &mut MeasuredLab<'_>, plan: &Plan) -> Result<(StepCost, Vec
         let world = &session.world;
         let d = world.data.fields();
         let reach = core::pairs_in_reach(&world.model, &world.data).unwrap_or(0);
-        for ([sum, most], now) in seen.iter_mut().zip([reach, d.ncon, d.nefc, d.solver_niter]) {
-            *sum += now as f64;
-            *most = most.max(now as f64);
+        for ([sum, most], current) in seen.iter_mut().zip([reach, d.ncon, d.nefc, d.solver_niter]) {
+            *sum += current as f64;
+            *most = most.max(current as f64);
         }
     }
     let steps = case.steps.max(1) as f64;

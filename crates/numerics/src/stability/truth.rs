@@ -64,19 +64,20 @@ pub(super) fn truth<'h>(
             return None;
         }
         parts *= REFINEMENT;
-        let now = fine(parts, work);
-        let ranges = ranges(&now);
+        let current = fine(parts, work);
+        let ranges = ranges(&current);
         let differ =
             |(a, b): (&Vec<f64>, &Vec<f64>)| largest(a, b, &ranges).is_none_or(|x| x > MAX_DIFFERENCE);
-        let agreeing = coarse.iter().zip(&now).position(differ).unwrap_or(coarse.len().min(now.len()));
-        let whole = agreeing == now.len();
+        let agreeing =
+            coarse.iter().zip(&current).position(differ).unwrap_or(coarse.len().min(current.len()));
+        let whole = agreeing == current.len();
         if best.as_ref().is_none_or(|(_, before)| agreeing > *before) {
-            best = Some((now.clone(), agreeing));
+            best = Some((current.clone(), agreeing));
         }
         if whole {
             break;
         }
-        coarse = now;
+        coarse = current;
     }
     let (mut rows, agreeing) = best?;
     rows.truncate(agreeing);

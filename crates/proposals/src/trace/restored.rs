@@ -46,12 +46,12 @@ fn statements(lab: &Lab, model: &Model, programs: &Programs) -> Option<String> {
     for write in writes {
         let field = FieldId::new(write.field.0 as usize).filter(|f| of_model(Some(*f)));
         let Some(field) = field.filter(|_| !set.contains(&write.field)) else { continue };
-        let (initial, now) = (model.field(field)?, session.world.model.field(field)?);
+        let (initial, current) = (model.field(field)?, session.world.model.field(field)?);
         let end = write.count.map_or(initial.len(), |n| write.first + n).min(initial.len());
         for i in write.first..end {
-            let (initial, now) = (initial.get(i)?, now.get(i)?);
+            let (initial, current) = (initial.get(i)?, current.get(i)?);
             let statement = format!("{} = {initial}", element(field, i));
-            if initial != now && initial.is_finite() && !all.contains(&statement) {
+            if initial != current && initial.is_finite() && !all.contains(&statement) {
                 all.push(statement);
             }
         }

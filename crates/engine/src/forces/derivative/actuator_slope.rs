@@ -13,9 +13,9 @@ pub(super) fn find(m: &Model, d: &Fields, out: &mut [f64]) -> bool {
     let on = !m.opt.disabled(disable::ACTUATION);
     let mut others = false;
     for (i, slope) in out.iter_mut().enumerate() {
-        let now = if on && acts(m, d, i) { slopes(m, d, i).velocity } else { 0.0 };
-        others |= now.to_bits() != slope.to_bits();
-        *slope = now;
+        let current = if on && acts(m, d, i) { slopes(m, d, i).velocity } else { 0.0 };
+        others |= current.to_bits() != slope.to_bits();
+        *slope = current;
     }
     others
 }
