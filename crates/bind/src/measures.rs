@@ -134,16 +134,16 @@ fn row_motion(m: &Model, f: FieldId, at: usize) -> Option<MotionKind> {
 fn actuator_motion(m: &Model, actuator: usize) -> Option<MotionKind> {
     let out = usize::try_from(*m.actuator_outadr.get(actuator)?).ok()?;
     let gear = m.actuator_gear.get(6 * out..6 * out + 6)?;
-    let of = usize::try_from(*m.actuator_trnid.get(2 * actuator)?).ok();
+    let target = usize::try_from(*m.actuator_trnid.get(2 * actuator)?).ok();
     match *m.actuator_trntype.get(actuator)? {
         trntype::JOINT | trntype::JOINTINPARENT if gear.first()?.abs() == 1.0 => {
-            match *m.jnt_type.get(of?)? {
+            match *m.jnt_type.get(target?)? {
                 joint::SLIDE => Some(MotionKind::Along),
                 joint::HINGE => Some(MotionKind::Turning),
                 _ => None,
             }
         }
-        trntype::TENDON if gear.first()?.abs() == 1.0 => tendon_motion(m, of?),
+        trntype::TENDON if gear.first()?.abs() == 1.0 => tendon_motion(m, target?),
         trntype::SLIDERCRANK => Some(MotionKind::Along),
         _ => None,
     }
@@ -155,8 +155,8 @@ fn tendon_motion(m: &Model, tendon: usize) -> Option<MotionKind> {
     let count = usize::try_from(*m.tendon_num.get(tendon)?).ok()?;
     let along = |at: usize| {
         let kind = m.wrap_type.get(at).copied().unwrap_or(wraptype::PULLEY);
-        let of = m.wrap_objid.get(at).and_then(|j| usize::try_from(*j).ok());
-        kind != wraptype::JOINT || of.and_then(|j| m.jnt_type.get(j)) == Some(&joint::SLIDE)
+        let target = m.wrap_objid.get(at).and_then(|j| usize::try_from(*j).ok());
+        kind != wraptype::JOINT || target.and_then(|j| m.jnt_type.get(j)) == Some(&joint::SLIDE)
     };
     (first..first + count).all(along).then_some(MotionKind::Along)
 }

@@ -170,8 +170,8 @@ impl Schema for ModelNames<'_> {
 
     fn member(&self, object: ObjectId, name: &str) -> Option<Entry> {
         match handle::decode(object)? {
-            HandleTarget::Struct(of) => {
-                if of == Object::Model {
+            HandleTarget::Struct(owner) => {
+                if owner == Object::Model {
                     match name {
                         "opt" => {
                             return Some(Entry::Object(handle::encode(HandleTarget::Struct(Object::Option))));
@@ -184,18 +184,18 @@ impl Schema for ModelNames<'_> {
                         _ => {}
                     }
                 }
-                let side = match of {
+                let side = match owner {
                     Object::Model => Some(FieldOwner::Model),
                     Object::Data => Some(FieldOwner::Data),
                     _ => None,
                 };
                 // A field with this name takes precedence, as in `data.contact`.
                 if let (Some(side), Some(kind), None) =
-                    (side, handle::kind_of(name), reflect::field(of, name))
+                    (side, handle::kind_of(name), reflect::field(owner, name))
                 {
                     return Some(Entry::Collection(handle::collection(side, kind)));
                 }
-                let f = reflect::field(of, name)?;
+                let f = reflect::field(owner, name)?;
                 Some(Entry::Field(self.whole(f, format!("{}.{name}", self.describe(object)))))
             }
             HandleTarget::Functions(i) => {
@@ -228,12 +228,12 @@ impl Schema for ModelNames<'_> {
     fn member_names(&self, object: ObjectId) -> Vec<String> {
         let mut names: Vec<String> = Vec::new();
         match handle::decode(object) {
-            Some(HandleTarget::Struct(of)) => {
-                names.extend(Self::struct_fields(of).map(|f| f.info().name.to_string()));
-                if of == Object::Model {
+            Some(HandleTarget::Struct(owner)) => {
+                names.extend(Self::struct_fields(owner).map(|f| f.info().name.to_string()));
+                if owner == Object::Model {
                     names.extend(["opt".into(), "stat".into()]);
                 }
-                if matches!(of, Object::Model | Object::Data) {
+                if matches!(owner, Object::Model | Object::Data) {
                     names.extend(KINDS.iter().map(|(_, noun)| noun.to_string()));
                 }
             }
@@ -346,8 +346,8 @@ impl Schema for ModelNames<'_> {
 
     fn result_field(&self, FunctionId(i): FunctionId, object: ObjectId) -> Option<Field> {
         let (f, kind) = TABLE.get(i as usize)?.gives?;
-        let Some(HandleTarget::Named(_, of, index)) = handle::decode(object) else { return None };
-        let (first, count) = elements::row(self.model, f, kind, index).filter(|_| of == kind)?;
+        let Some(HandleTarget::Named(_, owner, index)) = handle::decode(object) else { return None };
+        let (first, count) = elements::row(self.model, f, kind, index).filter(|_| owner == kind)?;
         let path = format!("{}.{}", self.path(FieldOwner::Data, kind, index), short_name(f.info().name));
         Some(field(f, path, first, vec![Some(count)], format!("a position has {count} of these")))
     }
@@ -360,7 +360,7 @@ impl Schema for ModelNames<'_> {
 
     fn hint(&self, object: ObjectId, name: &str) -> Option<String> {
         let here = match handle::decode(object)? {
-            HandleTarget::Struct(of) => of,
+            HandleTarget::Struct(owner) => owner,
             HandleTarget::Functions(_) if name.starts_with("mj_") => {
                 return Some(format!("`{name}` is a function of MuJoCo that labspec does not offer yet"));
             }
@@ -368,7 +368,7 @@ impl Schema for ModelNames<'_> {
         };
         let elsewhere = [Object::Model, Object::Option, Object::Data, Object::Statistic]
             .into_iter()
-            .find(|&of| of != here && reflect::field(of, name).is_some())?;
+            .find(|&owner| owner != here && reflect::field(owner, name).is_some())?;
         let holder = self.describe(handle::encode(HandleTarget::Struct(elsewhere)));
         Some(format!("`{name}` belongs to {holder}: write `{holder}.{name}`"))
     }

@@ -279,8 +279,8 @@ pub(crate) fn symbol(word: &str) -> Option<Dimension> {
     let row = |name: &str| UNITS.iter().chain(&NAMED).find(|row| row.0 == name);
     let lower = word.to_lowercase();
     let named = || {
-        let (size, of) = named(&lower)?;
-        Some((row(of)?, size))
+        let (size, base) = named(&lower)?;
+        Some((row(base)?, size))
     };
     let (row, size) = match row(word) {
         Some(row) => (row, 1.0),
@@ -314,13 +314,14 @@ fn spelled(word: &str) -> Option<(&'static UnitRow, f64)> {
 
 /// A unit by its name in lower case: its size, and the symbol in whose unit the size is.
 fn named(word: &str) -> Option<(f64, &'static str)> {
-    let one = |word: &str| WORDS.iter().find(|(name, ..)| *name == word).map(|(_, size, of)| (*size, *of));
+    let one =
+        |word: &str| WORDS.iter().find(|(name, ..)| *name == word).map(|(_, size, base)| (*size, *base));
     let any = |word: &str| one(word).or_else(|| one(word.strip_suffix('s')?));
     any(word).or_else(|| {
         let mut prefixed =
             NAMED_PREFIXES.iter().filter(|(p, _)| p.is_ascii()).filter_map(|(prefix, power)| {
-                let (size, of) = any(word.strip_prefix(prefix)?)?;
-                Some((size * 10f64.powi(*power), of))
+                let (size, base) = any(word.strip_prefix(prefix)?)?;
+                Some((size * 10f64.powi(*power), base))
             });
         prefixed.next()
     })

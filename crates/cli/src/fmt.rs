@@ -77,10 +77,10 @@ fn one(a: &FmtArguments, path: &Path, named: bool) -> Result<Option<String>, Fai
             printable_path(path)
         ));
     }
-    let of = format!("{} of {} texts", done.changed, done.total);
+    let checked_texts = format!("{} of {} texts", done.changed, done.total);
     if a.check {
-        return Ok(Some(format!("{of} would change")));
+        return Ok(Some(format!("{checked_texts} would change")));
     }
     write_file(path, OutputKind::Lesson(lesson.file.text()), &done.text)?;
-    Ok(Some(format!("{of} changed")))
+    Ok(Some(format!("{checked_texts} changed")))
 }

@@ -179,8 +179,8 @@ pub(super) fn read(file: &Path) -> Result<ReferenceRecording, Failure> {
     for (i, row) in read.runs.valid().ok_or_else(|| no("it has no runs"))?.iter().enumerate() {
         let empty = RecordingRow::default();
         let row = row.valid().unwrap_or(&empty);
-        let text = |of: &ParsedField<String>, key: &str| {
-            of.valid().cloned().ok_or_else(|| no(&format!("run {i} has no \"{key}\"")))
+        let text = |field: &ParsedField<String>, key: &str| {
+            field.valid().cloned().ok_or_else(|| no(&format!("run {i} has no \"{key}\"")))
         };
         recording.recorded.insert([
             text(&row.file, "file")?,
@@ -197,8 +197,8 @@ pub(super) fn read(file: &Path) -> Result<ReferenceRecording, Failure> {
     Ok(recording)
 }
 
-fn number(of: &RecordedNumber) -> Option<f64> {
-    match of {
+fn number(recorded: &RecordedNumber) -> Option<f64> {
+    match recorded {
         RecordedNumber::Finite(x) => Some(*x),
         RecordedNumber::Named(name) => match name.as_str() {
             "NaN" => Some(f64::NAN),

@@ -122,7 +122,7 @@ fn lesson(c: &Checked) -> LessonRow<'_> {
     LessonRow {
         file: c.lesson.file.path(),
         labs: c.labs.iter().map(lab).collect(),
-        claims: c.claims.iter().map(|of| claim(of, c)).collect(),
+        claims: c.claims.iter().map(|claim_check| claim(claim_check, c)).collect(),
         snapshots: c.snapshots.iter().map(snapshot_row).collect(),
     }
 }

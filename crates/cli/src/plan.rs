@@ -179,10 +179,10 @@ fn tree_algorithms(report: &PlanReport, text: &mut String) {
     let _ = writeln!(text, "\ntree algorithms");
     for algorithm in report.tree_algorithms.iter().filter(|w| w.trees != [0; 3]) {
         let [places, forces, factors] = algorithm.trees;
-        let of = [(places, "places"), (forces, "forces"), (factors, "accelerations")];
-        let of: Vec<String> =
-            of.iter().filter(|(n, _)| *n > 0).map(|(n, what)| format!("{what} of {n}")).collect();
-        let _ = writeln!(text, "  keep   {}: {}", algorithm.name, of.join(", "));
+        let parts = [(places, "places"), (forces, "forces"), (factors, "accelerations")];
+        let parts: Vec<String> =
+            parts.iter().filter(|(n, _)| *n > 0).map(|(n, what)| format!("{what} of {n}")).collect();
+        let _ = writeln!(text, "  keep   {}: {}", algorithm.name, parts.join(", "));
     }
     let idle = report.tree_algorithms.iter().filter(|w| w.trees == [0; 3]).map(|w| w.name);
     let idle = idle.collect::<Vec<_>>().join(", ");
@@ -347,23 +347,23 @@ fn mean_and_maximum([mean, most]: [f64; 2]) -> MeanAndMaximum {
     MeanAndMaximum { mean, most }
 }
 
-fn pair_row(of: &PairSummary) -> PairRow<'_> {
-    let tests = of.tests.iter();
-    let excluded = of.excluded.iter();
+fn pair_row(summary: &PairSummary) -> PairRow<'_> {
+    let tests = summary.tests.iter();
+    let excluded = summary.excluded.iter();
     PairRow {
-        all: of.all,
-        can_touch: of.can_touch,
+        all: summary.all,
+        can_touch: summary.can_touch,
         tests: tests
             .map(|(shapes, pairs, searched)| SearchTest { shapes, pairs: *pairs, searched: *searched })
             .collect(),
         excluded: excluded.map(|&(reason, pairs)| ExcludedPairs { reason, pairs }).collect(),
-        in_reach: of.seen.map(|s| mean_and_maximum(s.in_reach)),
-        contacts: of.seen.map(|s| mean_and_maximum(s.contacts)),
+        in_reach: summary.seen.map(|s| mean_and_maximum(s.in_reach)),
+        contacts: summary.seen.map(|s| mean_and_maximum(s.contacts)),
     }
 }
 
-fn machine(of: &PlanReport) -> PlanOutput<'_> {
-    let stages = of.rows.iter().map(|r| PlanStageRow {
+fn machine(report: &PlanReport) -> PlanOutput<'_> {
+    let stages = report.rows.iter().map(|r| PlanStageRow {
         stage: name(r.stage),
         keep: r.keep,
         reason: &r.reason,
@@ -372,7 +372,7 @@ fn machine(of: &PlanReport) -> PlanOutput<'_> {
         work: r.cost.map(|c| c.work),
         forced_ns: r.forced,
     });
-    let step = of.step.as_ref().map(|s| Step {
+    let step = report.step.as_ref().map(|s| Step {
         steps: s.steps,
         ns: s.ns,
         low_ns: s.quartiles[0],
@@ -380,33 +380,33 @@ fn machine(of: &PlanReport) -> PlanOutput<'_> {
         full_ns: s.full,
         work: s.work,
         integrator: cost(s.integrator, None),
-        controller: s.controller.map(|c| cost(c, of.controller)),
+        controller: s.controller.map(|c| cost(c, report.controller)),
     });
-    let tree_algorithms = of.tree_algorithms.iter().map(|w| {
+    let tree_algorithms = report.tree_algorithms.iter().map(|w| {
         let [places, forces, accelerations] = w.trees;
         TreeAlgorithmRow { name: w.name, places, forces, accelerations }
     });
-    let readers = of.readers.iter().map(|r| ReaderRow {
+    let readers = report.readers.iter().map(|r| ReaderRow {
         read: &r.text,
         joins: r.joins.iter().map(|s| name(*s)).collect(),
         ns: r.cost,
-        share: r.cost.zip(of.step.as_ref()).map(|(more, step)| more / step.ns),
+        share: r.cost.zip(report.step.as_ref()).map(|(more, step)| more / step.ns),
     });
-    let seen = of.pairs.seen;
+    let seen = report.pairs.seen;
     PlanOutput {
-        reads: names(&of.access.reads),
-        writes: names(&of.access.writes),
+        reads: names(&report.access.reads),
+        writes: names(&report.access.writes),
         stages: stages.collect(),
         step,
-        pairs: pair_row(&of.pairs),
-        sensors: &of.sensors,
+        pairs: pair_row(&report.pairs),
+        sensors: &report.sensors,
         solver: SolverRow {
-            cone: of.cone,
-            methods: &of.solvers,
+            cone: report.cone,
+            methods: &report.solvers,
             rows: seen.map(|s| mean_and_maximum(s.rows)),
             iterations: seen.map(|s| mean_and_maximum(s.iterations)),
         },
-        integrators: &of.integrators,
+        integrators: &report.integrators,
         tree_algorithms: tree_algorithms.collect(),
         readers: readers.collect(),
     }

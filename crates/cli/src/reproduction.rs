@@ -188,7 +188,7 @@ fn settings(s: &RunSettings) -> SettingsRecord {
         iterations: s.iterations,
         tolerance: finite(s.tolerance),
         options: numbers(&s.options),
-        contacts: s.contacts.iter().map(|(geom, of)| (geom.clone(), numbers(of))).collect(),
+        contacts: s.contacts.iter().map(|(geom, values)| (geom.clone(), numbers(values))).collect(),
         nonfinite: nonfinite(&[("timestep", &s.timestep), ("tolerance", &s.tolerance)]),
     }
 }

@@ -157,7 +157,7 @@ fn parameters(s: Option<&SettingsRecord>) -> BTreeMap<(Option<&str>, &str), Valu
     let contacts = s
         .into_iter()
         .flat_map(|s| &s.contacts)
-        .flat_map(|(geom, of)| of.iter().map(move |(name, value)| ((Some(&**geom), &**name), value)));
+        .flat_map(|(geom, values)| values.iter().map(move |(name, value)| ((Some(&**geom), &**name), value)));
     options.chain(contacts).map(|(at, value)| (at, value.as_slice().into())).collect()
 }
 

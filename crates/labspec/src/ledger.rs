@@ -393,25 +393,28 @@ mod tests {
 
     #[test]
     fn the_outcome_is_that_of_the_worst_claim() {
-        let of = |states: &[(Subject, State)]| {
+        let outcome = |states: &[(Subject, State)]| {
             let mut ledger = Ledger::default();
             states.iter().for_each(|&(subject, state)| ledger.add(entry(subject, state)));
             ledger.outcome()
         };
         let file = (Subject::File, State::True(Evidence::Computed));
         let answer = |state| (Subject::Answer, state);
-        assert_eq!(of(&[]), Outcome::Nothing);
-        assert_eq!(of(&[file]), Outcome::Nothing);
-        assert_eq!(of(&[file, (Subject::Widget, State::NotClaimed)]), Outcome::Nothing);
-        assert_eq!(of(&[file, (Subject::Widget, State::Skipped)]), Outcome::Partial);
-        assert_eq!(of(&[file, answer(State::NotClaimed)]), Outcome::Clean);
-        assert_eq!(of(&[file, answer(State::True(Evidence::Simulated))]), Outcome::Clean);
-        assert_eq!(of(&[file, answer(State::Unchecked)]), Outcome::Findings);
-        assert_eq!(of(&[(Subject::File, State::Unchecked)]), Outcome::Findings);
+        assert_eq!(outcome(&[]), Outcome::Nothing);
+        assert_eq!(outcome(&[file]), Outcome::Nothing);
+        assert_eq!(outcome(&[file, (Subject::Widget, State::NotClaimed)]), Outcome::Nothing);
+        assert_eq!(outcome(&[file, (Subject::Widget, State::Skipped)]), Outcome::Partial);
+        assert_eq!(outcome(&[file, answer(State::NotClaimed)]), Outcome::Clean);
+        assert_eq!(outcome(&[file, answer(State::True(Evidence::Simulated))]), Outcome::Clean);
+        assert_eq!(outcome(&[file, answer(State::Unchecked)]), Outcome::Findings);
+        assert_eq!(outcome(&[(Subject::File, State::Unchecked)]), Outcome::Findings);
         let left = answer(State::Skipped);
-        assert_eq!(of(&[file, left, answer(State::True(Evidence::Simulated))]), Outcome::Partial);
-        assert_eq!(of(&[left, answer(State::Unchecked)]), Outcome::Findings);
-        assert_eq!(of(&[answer(State::True(Evidence::Simulated)), answer(State::False)]), Outcome::Findings);
+        assert_eq!(outcome(&[file, left, answer(State::True(Evidence::Simulated))]), Outcome::Partial);
+        assert_eq!(outcome(&[left, answer(State::Unchecked)]), Outcome::Findings);
+        assert_eq!(
+            outcome(&[answer(State::True(Evidence::Simulated)), answer(State::False)]),
+            Outcome::Findings
+        );
     }
 
     /// Every combination of counts has a correct sentence: it names all existing states and no others.

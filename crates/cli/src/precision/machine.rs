@@ -125,9 +125,9 @@ struct BesideRunRow<'a> {
 pub(super) fn machine(report: &PrecisionResults) -> Map<String, Value> {
     let targets = || report.targets.iter();
     // A closed form has no uncertainty: its entry is missing, not lost.
-    let of = |f: fn(&Compared) -> Option<f64>| targets().map(f).collect::<Vec<_>>();
-    let uncertainty = of(|t| (!t.closed).then_some(t.uncertain));
-    let (unseen, until) = (of(|t| Some(t.invisible_error)), of(|t| t.until));
+    let column = |f: fn(&Compared) -> Option<f64>| targets().map(f).collect::<Vec<_>>();
+    let uncertainty = column(|t| (!t.closed).then_some(t.uncertain));
+    let (unseen, until) = (column(|t| Some(t.invisible_error)), column(|t| t.until));
     let conserved = [report.energy, report.momentum[0], report.momentum[1]];
     let row = PrecisionReport {
         traces: targets().map(|t| t.label.as_str()).collect(),
@@ -183,7 +183,7 @@ fn event_row(event: &Event) -> Map<String, Value> {
 
 fn run_row(row: &PrecisionRow, report: &PrecisionResults) -> Map<String, Value> {
     let at_most = row.events.iter().zip(&report.events).map(|(off, event)| *off <= event.uncertain);
-    let of = |f: fn(&Errors) -> Option<f64>| row.errors.iter().map(f).collect::<Vec<_>>();
+    let column = |f: fn(&Errors) -> Option<f64>| row.errors.iter().map(f).collect::<Vec<_>>();
     let row = PrecisionRunRow {
         integrator: row.setting.integrator.name,
         timestep: row.setting.timestep,
@@ -196,11 +196,11 @@ fn run_row(row: &PrecisionRow, report: &PrecisionResults) -> Map<String, Value> 
         compared: row.errors.iter().map(|e| e.samples).collect(),
         events_below: at_most.collect(),
         below: row.errors.iter().map(|e| e.below).collect(),
-        errors: of(|e| Some(e.largest)),
-        at: of(|e| Some(e.at)),
-        rms: of(|e| Some(e.rms)),
-        end: of(|e| Some(e.end)),
-        orders: of(|e| e.order),
+        errors: column(|e| Some(e.largest)),
+        at: column(|e| Some(e.at)),
+        rms: column(|e| Some(e.rms)),
+        end: column(|e| Some(e.end)),
+        orders: column(|e| e.order),
         events: row.events.iter().copied().map(Some).collect(),
         conserved: [row.energy, row.momentum[0], row.momentum[1]],
         penetration: row.penetration,

@@ -27,8 +27,12 @@ fn numbers(m: &Model, d: &Fields, object: Object, name: &str) -> Vec<f64> {
 /// The largest difference, relative to the largest magnitude (at least 1), with its index.
 fn difference(got: &[f64], expected: &[f64]) -> (f64, usize) {
     let scale = expected.iter().fold(1.0_f64, |s, x| s.max(x.abs()));
-    let of = |(i, (a, b)): (usize, (&f64, &f64))| ((a - b).abs() / scale, i);
-    got.iter().zip(expected).enumerate().map(of).fold((0.0, 0), |a, b| if b.0 > a.0 { b } else { a })
+    let scaled_error = |(i, (a, b)): (usize, (&f64, &f64))| ((a - b).abs() / scale, i);
+    got.iter()
+        .zip(expected)
+        .enumerate()
+        .map(scaled_error)
+        .fold((0.0, 0), |a, b| if b.0 > a.0 { b } else { a })
 }
 
 /// The name and index of the sensor that a value belongs to.
@@ -104,8 +108,11 @@ fn check_recorded(xml: &str, recorded: &str, tolerance: f64) {
         }
         let (error, at) = difference(&got, &expected);
         if error > tolerance {
-            let of = if name == "sensordata" { sensor(&m, at) } else { String::new() };
-            wrong.push(format!("state {state} {name}[{at}] {of}: {} instead of {}", got[at], expected[at]));
+            let sensor_name = if name == "sensordata" { sensor(&m, at) } else { String::new() };
+            wrong.push(format!(
+                "state {state} {name}[{at}] {sensor_name}: {} instead of {}",
+                got[at], expected[at]
+            ));
         }
     }
     assert_eq!(state, 7);

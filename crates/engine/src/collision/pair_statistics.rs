@@ -77,8 +77,8 @@ pub fn pair_statistics(m: &Model, change: Changes) -> Vec<(PairFilterReason, usi
 /// Whether two geoms are out of reach of each other, also with the margins of their explicit pairs.
 fn is_out_of_reach(m: &Model, extents: &Extents, a: usize, b: usize) -> bool {
     let both = ordered(a as i32, b as i32);
-    let of = |p: &Pair| ordered(p.geom1 as i32, p.geom2 as i32) == both;
-    let mut pairs = explicit_pairs(m).filter(of).chain(dynamic_pair(m, a, b, true));
+    let has_both = |p: &Pair| ordered(p.geom1 as i32, p.geom2 as i32) == both;
+    let mut pairs = explicit_pairs(m).filter(has_both).chain(dynamic_pair(m, a, b, true));
     pairs.all(|p| extents.never_within(m, &p, params::params(m, &p).reach))
 }
 

@@ -82,14 +82,14 @@ impl Sweep {
     pub(super) fn new(m: &Model, may_change: bool) -> Sweep {
         // A geom without contact bits does not take part.
         let bits = |g: usize| may_change || m.geom_contype[g] != 0 || m.geom_conaffinity[g] != 0;
-        let of = |bounded: bool| {
+        let geoms_with = |bounded: bool| {
             let size = move |g: &usize| (m.geom_rbound[*g] > 0.0) == bounded;
             (0..m.ngeom).filter(size).filter(move |&g| bits(g)).map(|g| g as u32)
         };
-        let n = of(true).count();
+        let n = geoms_with(true).count();
         Sweep {
-            shadows: of(true).map(|geom| SweepEntry { geom, ..SweepEntry::default() }).collect(),
-            planes: of(false).collect(),
+            shadows: geoms_with(true).map(|geom| SweepEntry { geom, ..SweepEntry::default() }).collect(),
+            planes: geoms_with(false).collect(),
             wide: Vec::with_capacity(n),
             entries: Vec::with_capacity(MOST_COLUMNS * n),
             active: Vec::with_capacity(n),

@@ -87,7 +87,7 @@ struct ColumnBlocks {
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct ColumnBlock {
     block: u32,
-    of: [u32; 4],
+    columns: [u32; 4],
 }
 
 /// Marks a column that the Jacobian block does not have.
@@ -233,10 +233,10 @@ impl Hessian {
                     q -= 1;
                 }
                 if q == first || self.lanes[q - 1].block < block {
-                    self.lanes.insert(q, ColumnBlock { block, of: [NONE; 4] });
+                    self.lanes.insert(q, ColumnBlock { block, columns: [NONE; 4] });
                     q += 1;
                 }
-                self.lanes[q - 1].of[lane] = p as u32;
+                self.lanes[q - 1].columns[lane] = p as u32;
             }
             self.column_blocks.push(ColumnBlocks {
                 columns: column..self.listed_columns.len(),
@@ -411,7 +411,7 @@ impl HessianAccumulator for Hessian {
         }
         let fours = &mut fours.as_chunks_mut::<R>().0[..lanes.len()];
         for (lane_columns, four) in lanes.iter().zip(fours.iter_mut()) {
-            let columns = lane_columns.of.map(|p| v.get(p as usize).unwrap_or(&[0.0; R]));
+            let columns = lane_columns.columns.map(|p| v.get(p as usize).unwrap_or(&[0.0; R]));
             *four = from_fn(|r| columns.map(|v| v[r]));
         }
         for (q, lane_columns) in lanes.iter().enumerate() {
@@ -419,7 +419,7 @@ impl HessianAccumulator for Hessian {
             let row = &mut values[start..][..lane_columns.block as usize + 1 - first];
             // Elements of diagonal blocks above the diagonal are never read, so they may be overwritten.
             let (lanes, fours) = (&lanes[..=q], &fours[..=q]);
-            for (lane, p) in lane_columns.of.into_iter().enumerate() {
+            for (lane, p) in lane_columns.columns.into_iter().enumerate() {
                 let Some(v) = v.get(p as usize) else { continue };
                 let w = apply_weights(v).map(f64x4::splat);
                 for (to, four) in lanes.iter().zip(fours) {

@@ -189,10 +189,11 @@ mod tests {
     #[test]
     fn lists_keep_order_and_can_be_reused() {
         let mut lists = Lists::default();
-        for of in [vec![2u32, 0, 1, 0, 3, 2, 1], vec![0, 0, 1]] {
-            lists.fill(4, of.iter().enumerate().map(|(item, &list)| (list, item)));
+        for owners in [vec![2u32, 0, 1, 0, 3, 2, 1], vec![0, 0, 1]] {
+            lists.fill(4, owners.iter().enumerate().map(|(item, &list)| (list, item)));
             for list in 0..4 {
-                let expected: Vec<usize> = (0..of.len()).filter(|&i| of[i] as usize == list).collect();
+                let expected: Vec<usize> =
+                    (0..owners.len()).filter(|&i| owners[i] as usize == list).collect();
                 assert_eq!(lists.members(list).collect::<Vec<_>>(), expected);
             }
         }

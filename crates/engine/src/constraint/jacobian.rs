@@ -313,8 +313,8 @@ impl ConstraintJacobian {
         b: &JacobianBlock,
     ) -> impl Iterator<Item = usize> + Clone + use<'a> {
         let mut last = usize::MAX;
-        let of = |&c: &u32| object_index(m.dof_treeid[c as usize]);
-        self.columns(b).iter().map(of).filter(move |&t| std::mem::replace(&mut last, t) != t)
+        let tree = |&c: &u32| object_index(m.dof_treeid[c as usize]);
+        self.columns(b).iter().map(tree).filter(move |&t| std::mem::replace(&mut last, t) != t)
     }
 
     /// Starts a block of one row.

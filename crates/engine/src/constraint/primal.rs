@@ -184,9 +184,9 @@ impl<'a> PrimalProblem<'a> {
     /// ½ gᵀ M⁻¹ g for a diagonal M.
     fn decrement_by_diagonal(&mut self) -> f64 {
         tree_algorithms::complete(self.m, self.d, self.trees);
-        let of =
+        let decrement =
             |r: Range<usize>| sum([&self.d.qLDiagInv[r.clone()], &self.s.grad[r]], |[inv, g]| inv * g * g);
-        0.5 * self.dofs().map(of).sum::<f64>()
+        0.5 * self.dofs().map(decrement).sum::<f64>()
     }
 
     /// ½ gᵀ step.

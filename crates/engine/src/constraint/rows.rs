@@ -69,7 +69,9 @@ fn append(d: &mut Fields, kind: i32, id: usize, loss: f64, [pos, margin, r]: [&[
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn soften(d: &mut Fields, row: usize, imp: f64, r: &[f64]) {
     let rows = row..row + r.len();
-    let put = |to: &mut [f64], of: &dyn Fn(f64) -> f64| to.iter_mut().zip(r).for_each(|(to, r)| *to = of(*r));
+    let put = |to: &mut [f64], function: &dyn Fn(f64) -> f64| {
+        to.iter_mut().zip(r).for_each(|(to, r)| *to = function(*r))
+    };
     put(&mut d.efc_diagA[rows.clone()], &|r| r * imp / (1.0 - imp));
     put(&mut d.efc_R[rows.clone()], &|r| r);
     put(&mut d.efc_D[rows], &|r| 1.0 / r);

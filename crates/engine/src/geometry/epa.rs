@@ -349,8 +349,8 @@ impl ConvexScratch {
         let weights = weights.map(|w| w.max(0.0));
         let sum: f64 = weights.iter().sum();
         let vertices = self.faces[face as usize].from.map(|v| &self.vertices[v as usize]);
-        let mean = |of: fn(&Vertex) -> Vec3| {
-            vertices.iter().zip(weights).fold([0.0; 3], |m, (v, w)| add_scaled(m, of(v), w / sum))
+        let mean = |point: fn(&Vertex) -> Vec3| {
+            vertices.iter().zip(weights).fold([0.0; 3], |m, (v, w)| add_scaled(m, point(v), w / sum))
         };
         [mean(|v| v.on_a), mean(|v| v.on_b)]
     }

@@ -23,9 +23,9 @@ pub(super) fn position(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) {
 }
 
 pub(super) fn orientation(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) {
-    let of = |objtype: i32, id: i32| object::orientation(m, d, objtype, usize::try_from(id).ok()?);
-    let Some(q) = of(m.sensor_objtype[s], m.sensor_objid[s]) else { return };
-    let r = of(m.sensor_reftype[s], m.sensor_refid[s]);
+    let orientation = |objtype: i32, id: i32| object::orientation(m, d, objtype, usize::try_from(id).ok()?);
+    let Some(q) = orientation(m.sensor_objtype[s], m.sensor_objid[s]) else { return };
+    let r = orientation(m.sensor_reftype[s], m.sensor_refid[s]);
     put(out, r.map_or(q, |r| quat_mul(quat_conj(r), q)));
 }
 

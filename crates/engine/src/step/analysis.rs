@@ -236,8 +236,8 @@ impl<'a> ModelAnalysis<'a> {
     }
 
     /// Whether at least one of these numbers is not zero, or may become so.
-    pub(super) fn has_nonzero(&self, of: &[Numbers]) -> bool {
-        of.iter().any(|numbers| self.count_nonzero(numbers) > 0)
+    pub(super) fn has_nonzero(&self, groups: &[Numbers]) -> bool {
+        groups.iter().any(|numbers| self.count_nonzero(numbers) > 0)
     }
 
     /// The number of these numbers that are not zero, or may become so.

@@ -82,9 +82,9 @@ fn reset_after(
     d: &mut Fields,
     s: &mut StepScratch,
     warning: Warning,
-    of: fn(&Fields) -> &[f64],
+    field: fn(&Fields) -> &[f64],
 ) -> bool {
-    let Some(info) = of(d).iter().position(|&x| bad(x)) else { return false };
+    let Some(info) = field(d).iter().position(|&x| bad(x)) else { return false };
     d.warn(warning, info);
     if m.opt.disabled(disable::AUTORESET) {
         // MuJoCo counts a warning twice if it does not reset.

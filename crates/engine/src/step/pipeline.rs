@@ -46,10 +46,10 @@ pub(super) struct PipelineRow {
 
 impl PipelineRow {
     /// Whether the stage uses the results of another one in a scene.
-    pub(super) fn uses(&self, analysis: &ModelAnalysis, of: Stage) -> bool {
+    pub(super) fn uses(&self, analysis: &ModelAnalysis, stage: Stage) -> bool {
         self.needs
             .iter()
-            .any(|(stages, when)| (stages.is_empty() || stages.contains(&of)) && when(analysis, of))
+            .any(|(stages, when)| (stages.is_empty() || stages.contains(&stage)) && when(analysis, stage))
     }
 }
 
@@ -344,7 +344,7 @@ pub(super) const STAGES: [PipelineRow; 26] = [
                 let poses = [Stage::Kinematics, Stage::GeomPoses, Stage::SitePoses, Stage::CameraPoses];
                 poses.into_iter().any(|stage| s.is_used_by_sensors(stage))
             }),
-            (&[], |s, of| s.is_used_by_sensors(of)),
+            (&[], |s, stage| s.is_used_by_sensors(stage)),
         ],
         keep_reason: |s| reason_if(s.sensors, "sensor values are read"),
         omit_reason: |s| match s.m.nsensor {

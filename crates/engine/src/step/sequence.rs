@@ -33,8 +33,8 @@ impl Sequence {
     }
 
     /// The bits of all functions whose stage satisfies a condition.
-    fn bits(&self, of: impl Fn(Stage) -> bool) -> u32 {
-        self.stage.iter().enumerate().filter(|(_, s)| s.is_some_and(&of)).map(|(i, _)| 1 << i).sum()
+    fn bits(&self, predicate: impl Fn(Stage) -> bool) -> u32 {
+        self.stage.iter().enumerate().filter(|(_, s)| s.is_some_and(&predicate)).map(|(i, _)| 1 << i).sum()
     }
 
     /// The bits of the functions of some stages.

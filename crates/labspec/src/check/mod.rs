@@ -189,16 +189,16 @@ fn empty() -> Option<PreparedLab<'static>> {
 
 /// Removes `idle-control` findings of controls for which a finding states that a reset undoes their effect.
 fn deduplicate(lesson: &Lesson, findings: &mut Vec<Finding>) {
-    let of = |code: &str, f: &Finding| f.code == code;
+    let tested_code = |code: &str, f: &Finding| f.code == code;
     let lost = |span: &std::ops::Range<usize>, findings: &[Finding]| {
         let inside = |f: &Finding| span.start <= f.span.start && f.span.end <= span.end;
-        findings.iter().any(|f| of(rules::LOST_AT_RESET.code, f) && inside(f))
+        findings.iter().any(|f| tested_code(rules::LOST_AT_RESET.code, f) && inside(f))
     };
     let labs = lesson.all_labs();
     let controls = labs.iter().flat_map(|lab| &lab.controls).map(|c| c.span.clone());
     let spans: Vec<_> = controls.filter(|span| lost(span, findings)).collect();
     findings.retain(|f| {
-        !of(rules::IDLE_CONTROL.code, f) || !spans.iter().any(|span| span.contains(&f.span.start))
+        !tested_code(rules::IDLE_CONTROL.code, f) || !spans.iter().any(|span| span.contains(&f.span.start))
     });
 }
 

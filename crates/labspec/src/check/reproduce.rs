@@ -172,9 +172,9 @@ fn contacts(model: &Model) -> BTreeMap<String, BTreeMap<&'static str, Vec<f64>>>
 /// The values of some fields of a model, with the names of the fields.
 fn numbers(model: &Model, fields: impl Iterator<Item = FieldId>) -> Vec<(&'static str, Vec<f64>)> {
     let data = Data::planned(model, Plan::new(model, &AccessSet::OBSERVE));
-    let of = |f: FieldId| {
+    let describe_field = |f: FieldId| {
         let view = core::view(model, &data, f).ok();
         view.map_or(Vec::new(), |view| (0..view.len()).filter_map(|i| view.get(i)).collect())
     };
-    fields.map(|f| (f.info().name, of(f))).collect()
+    fields.map(|f| (f.info().name, describe_field(f))).collect()
 }

@@ -100,7 +100,7 @@ impl<I: Iterator<Item: Serialize>, F: Fn() -> I> Serialize for Sequence<F> {
 }
 
 fn cells_of<'t>(row: &'t [Cell], types: &'t [CellType]) -> impl Serialize {
-    Sequence(move || row.iter().zip(types).map(|(cell, of)| TypedCell(cell, *of)))
+    Sequence(move || row.iter().zip(types).map(|(cell, cell_type)| TypedCell(cell, *cell_type)))
 }
 
 struct TypedCell<'t>(&'t Cell, CellType);
@@ -124,8 +124,8 @@ fn nonfinite_cells<'t>(
     types: &'t [CellType],
 ) -> impl Iterator<Item = (usize, usize, &'static str)> {
     rows.iter().enumerate().flat_map(move |(row, cells)| {
-        cells.iter().zip(types).enumerate().filter_map(move |(column, (cell, of))| match cell {
-            Cell::Number(x) if *of == CellType::Number => Some((row, column, nonfinite(*x)?)),
+        cells.iter().zip(types).enumerate().filter_map(move |(column, (cell, cell_type))| match cell {
+            Cell::Number(x) if *cell_type == CellType::Number => Some((row, column, nonfinite(*x)?)),
             _ => None,
         })
     })

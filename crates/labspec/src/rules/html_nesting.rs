@@ -114,17 +114,17 @@ mod tests {
 
     #[test]
     fn markup_that_browsers_correct_is_reported() {
-        let of =
+        let faults_in =
             |html: &str| faults(html).into_iter().map(|(_, name, fault)| (name, fault)).collect::<Vec<_>>();
         let named = |name: &str, fault| vec![(name.to_string(), fault)];
-        assert_eq!(of("<p>one <b>two</b><p>three <br> <img src='a'> 1 < 2 <code>x</code>"), []);
-        assert_eq!(of("<ul><li>a<li>b</ul> <!-- <b> --> <svg><path d=''/><g></g></svg>"), []);
-        assert_eq!(of("<p>a <code>x</p>"), named("code", MarkupFault::Crossed("p".into())));
-        assert_eq!(of("a <code>x"), named("code", MarkupFault::Unclosed));
-        assert_eq!(of("a</b>"), named("b", MarkupFault::Unopened));
-        assert_eq!(of("<strnog>a</strnog>").len(), 2);
-        assert_eq!(of("if a<bc and d>e"), named("bc", MarkupFault::Unknown));
+        assert_eq!(faults_in("<p>one <b>two</b><p>three <br> <img src='a'> 1 < 2 <code>x</code>"), []);
+        assert_eq!(faults_in("<ul><li>a<li>b</ul> <!-- <b> --> <svg><path d=''/><g></g></svg>"), []);
+        assert_eq!(faults_in("<p>a <code>x</p>"), named("code", MarkupFault::Crossed("p".into())));
+        assert_eq!(faults_in("a <code>x"), named("code", MarkupFault::Unclosed));
+        assert_eq!(faults_in("a</b>"), named("b", MarkupFault::Unopened));
+        assert_eq!(faults_in("<strnog>a</strnog>").len(), 2);
+        assert_eq!(faults_in("if a<bc and d>e"), named("bc", MarkupFault::Unknown));
         // Another rule reports these.
-        assert_eq!(of("set in <option>, <geom size='1'/>"), []);
+        assert_eq!(faults_in("set in <option>, <geom size='1'/>"), []);
     }
 }

@@ -31,19 +31,19 @@ const STEP_INTERVAL: usize = 5;
 struct Mixed {
     field: &'static str,
     how: &'static str,
-    of: fn(&Model, usize) -> Option<f64>,
+    value_of_geom: fn(&Model, usize) -> Option<f64>,
 }
 
 const MIXED: [Mixed; 2] = [
     Mixed {
         field: "geom_friction",
         how: "the contact uses the larger of the two",
-        of: |m, g| m.geom_friction.get(3 * g).copied(),
+        value_of_geom: |m, g| m.geom_friction.get(3 * g).copied(),
     },
     Mixed {
         field: "geom_solref",
         how: "the contact uses their mean, weighted by `solmix`",
-        of: |m, g| m.geom_solref.get(2 * g).copied(),
+        value_of_geom: |m, g| m.geom_solref.get(2 * g).copied(),
     },
 ];
 
@@ -99,7 +99,7 @@ fn differs(
     let start = Start { key, plan: Some(Plan::full()), budget };
     let mut session = Session::start(&ready.programs, &ready.model, start);
     let all = |session: &Session<'_>| -> Vec<Option<f64>> {
-        (0..ready.model.ngeom).map(|g| (what.of)(&session.world.model, g)).collect()
+        (0..ready.model.ngeom).map(|g| (what.value_of_geom)(&session.world.model, g)).collect()
     };
     let before = all(&session);
     session.set_control(index, value);

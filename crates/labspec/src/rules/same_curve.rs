@@ -47,8 +47,9 @@ pub(crate) fn check_moving_trace(
 /// Whether two traces read the same fields and are equal in all runs and states.
 fn shows_same_curve(observed: &mut ObservedLab<'_>, a: usize, b: usize) -> bool {
     let ready = observed.bench.ready;
-    let of = |c: usize| Some(ready.programs.probes.get(c.checked_sub(1)?)?.bound.as_ref()?.program.effects());
-    let (Some(one), Some(two)) = (of(a), of(b)) else { return false };
+    let effects =
+        |c: usize| Some(ready.programs.probes.get(c.checked_sub(1)?)?.bound.as_ref()?.program.effects());
+    let (Some(one), Some(two)) = (effects(a), effects(b)) else { return false };
     let mut sets = [one, two].map(|e| (e.reads.clone(), e.calls.clone(), e.ctx_reads.clone()));
     sets.iter_mut().for_each(|(reads, calls, slots)| {
         reads.sort();

@@ -103,10 +103,13 @@ mod tests {
 
     #[test]
     fn numbers_are_distinguished_from_indices_and_powers() {
-        let of = |text: &str| numbers(text).into_iter().map(|n| n.value).collect::<Vec<_>>();
-        assert_eq!(of("<p>7 + 2 = 9, plus 21: 30. And x_1 = -4.50 m</p>"), [7.0, 2.0, 9.0, 21.0, 30.0, -4.5]);
-        assert_eq!(of("$10^{-11}$ and $2 \\times 9.81 \\times 0.3$ = 5.886 N m"), [0.3, 5.886]);
-        assert_eq!(of("5 − 0.367 = 4.633"), [5.0, 0.367, 4.633]);
+        let values = |text: &str| numbers(text).into_iter().map(|n| n.value).collect::<Vec<_>>();
+        assert_eq!(
+            values("<p>7 + 2 = 9, plus 21: 30. And x_1 = -4.50 m</p>"),
+            [7.0, 2.0, 9.0, 21.0, 30.0, -4.5]
+        );
+        assert_eq!(values("$10^{-11}$ and $2 \\times 9.81 \\times 0.3$ = 5.886 N m"), [0.3, 5.886]);
+        assert_eq!(values("5 − 0.367 = 4.633"), [5.0, 0.367, 4.633]);
     }
 
     #[test]

@@ -110,10 +110,10 @@ pub(super) fn so_far<'a>(pairs: impl Iterator<Item = (&'a Vec<f64>, &'a Vec<f64>
 
 /// The largest difference of the two families, relative to the range of the quantity.
 pub(super) fn largest_relative_difference(values: &[Vec<f64>], uncertain: &[Vec<f64>]) -> f64 {
-    let of = |(values, uncertain): (&Vec<f64>, &Vec<f64>)| {
+    let relative_error = |(values, uncertain): (&Vec<f64>, &Vec<f64>)| {
         uncertain.last().copied().unwrap_or(0.0) / range(values).max(f64::MIN_POSITIVE)
     };
-    values.iter().zip(uncertain).map(of).fold(0.0, f64::max)
+    values.iter().zip(uncertain).map(relative_error).fold(0.0, f64::max)
 }
 
 /// Whether two families agree up to a part of the range, or up to rounding.

@@ -91,12 +91,12 @@ fn turn(values: &[f64]) -> Option<(f64, f64)> {
 fn coefficients(values: &[f64]) -> Vec<f64> {
     let n = values.len() - 1;
     let weight = |i: usize| if i == 0 || i == n { 0.5 } else { 1.0 };
-    let of = |j: usize| {
+    let coefficient = |j: usize| {
         let terms = values.iter().enumerate();
         let sum: f64 = terms.map(|(i, v)| weight(i) * v * (PI * (i * j) as f64 / n as f64).cos()).sum();
         2.0 / n as f64 * weight(j) * sum
     };
-    (0..=n).map(of).collect()
+    (0..=n).map(coefficient).collect()
 }
 
 /// The series of the derivative.

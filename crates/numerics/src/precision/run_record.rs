@@ -166,12 +166,12 @@ impl EnergySampler {
         let d = &mut self.data;
         let moving = core::forward(m, d).and_then(|()| core::subtree_vel(m, d));
         let mut momentum = [f64::NAN; 6];
-        let of = |list: &[f64], k: usize| list.get(k).copied().unwrap_or(f64::NAN);
+        let value_at = |list: &[f64], k: usize| list.get(k).copied().unwrap_or(f64::NAN);
         if moving.is_ok() {
-            let mass = of(&m.body_subtreemass, 0);
+            let mass = value_at(&m.body_subtreemass, 0);
             for k in 0..3 {
-                momentum[k] = mass * of(&d.subtree_linvel, k);
-                momentum[3 + k] = of(&d.subtree_angmom, k);
+                momentum[k] = mass * value_at(&d.subtree_linvel, k);
+                momentum[3 + k] = value_at(&d.subtree_angmom, k);
             }
         }
         seen.momentum.push(momentum);

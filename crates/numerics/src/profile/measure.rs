@@ -211,10 +211,10 @@ pub(super) fn measure(
     let (times, laps) = measure_alternately(&case, &plan, &variants);
     let per_step = |sum: f64| sum / case.steps as f64;
     let sums: Vec<[f64; 3]> = times.iter().map(|t| t.sums().map(per_step)).collect();
-    let of = |i: usize| sums.get(i).copied().unwrap_or_default();
-    let [low, ns, high] = of(0);
+    let mean = |i: usize| sums.get(i).copied().unwrap_or_default();
+    let [low, ns, high] = mean(0);
     // A variant that runs more stages is not faster; a negative difference is noise.
-    let more = |i: usize| (of(i)[1] - ns).max(0.0);
+    let more = |i: usize| (mean(i)[1] - ns).max(0.0);
     // A stage takes slightly longer when timed separately, so only its share of the total is used.
     let laps: Vec<f64> = laps.iter().map(|t| per_step(t.sums()[1])).collect();
     let all: f64 = laps.iter().sum();
@@ -223,7 +223,7 @@ pub(super) fn measure(
         StageCost { ns: share * ns, share, work }
     };
     let stages: Vec<_> = plan.decisions().iter().map(|d| d.stage).collect();
-    (step.ns, step.quartiles, step.full) = (ns, [low, high], of(1)[1]);
+    (step.ns, step.quartiles, step.full) = (ns, [low, high], mean(1)[1]);
     step.integrator = cost(stages.len(), 0.0);
     step.controller = programs.controller.as_ref().map(|_| cost(stages.len() + 1, 0.0));
     let costs = stages.iter().zip(&works).enumerate();

@@ -171,8 +171,8 @@ pub(super) fn integrators(model: &Model, access: &AccessSet) -> Vec<EngineOption
 pub(super) fn tree_algorithms(model: &Model, plan: &Plan) -> Vec<TreeAlgorithmUse> {
     let trees = plan.tree_algorithms(model);
     let count = |algorithm: core::TreeAlgorithm| {
-        let of = |i: usize| trees.iter().filter(|t| t.get(i) == Some(&algorithm)).count();
-        TreeAlgorithmUse { name: algorithm.name(), trees: [of(0), of(1), of(2)] }
+        let uses = |i: usize| trees.iter().filter(|t| t.get(i) == Some(&algorithm)).count();
+        TreeAlgorithmUse { name: algorithm.name(), trees: [uses(0), uses(1), uses(2)] }
     };
     core::TreeAlgorithm::all().map(count).collect()
 }

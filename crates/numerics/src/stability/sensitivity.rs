@@ -105,9 +105,9 @@ fn slope(list: &[(f64, f64)]) -> Option<f64> {
         return None;
     }
     let n = list.len() as f64;
-    let mean = |of: &dyn Fn(&(f64, f64)) -> f64| list.iter().map(of).sum::<f64>() / n;
+    let mean = |function: &dyn Fn(&(f64, f64)) -> f64| list.iter().map(function).sum::<f64>() / n;
     let (t, y) = (mean(&|p| p.0), mean(&|p| p.1));
-    let product = |of: &dyn Fn(&(f64, f64)) -> f64| list.iter().map(of).sum::<f64>();
+    let product = |function: &dyn Fn(&(f64, f64)) -> f64| list.iter().map(function).sum::<f64>();
     let tt = product(&|p| (p.0 - t) * (p.0 - t));
     let ty = product(&|p| (p.0 - t) * (p.1 - y));
     let yy = product(&|p| (p.1 - y) * (p.1 - y));

@@ -148,11 +148,11 @@ fn displayed_numbers(case: &StressCase<'_>, session: &mut Session<'_>) -> Vec<f6
 /// The largest minus the smallest value of each number.
 fn ranges(rows: &SampledRows) -> Vec<f64> {
     let width = rows.first().map_or(0, Vec::len);
-    let of = |k: usize| {
+    let value_at = |k: usize| {
         let column = || rows.iter().filter_map(|row| row.get(k)).copied();
         column().fold(f64::NEG_INFINITY, f64::max) - column().fold(f64::INFINITY, f64::min)
     };
-    (0..width).map(of).collect()
+    (0..width).map(value_at).collect()
 }
 
 /// The largest difference of two rows relative to the ranges, or `None` if the rows have different lengths.

@@ -180,10 +180,10 @@ fn orders<'t, 'l>(tried: &'t TracedLab<'l>, options: &[String]) -> Vec<MeasureCh
     for (k, (i, a)) in meets.iter().enumerate() {
         for (j, b) in meets.iter().skip(k + 1) {
             let alone = |names: &[&str], other: &[&str]| -> BTreeSet<String> {
-                let of = |names: &[&str]| -> BTreeSet<String> {
+                let words = |names: &[&str]| -> BTreeSet<String> {
                     names.iter().flat_map(|n| split_words(n)).collect()
                 };
-                of(names).difference(&of(other)).cloned().collect()
+                words(names).difference(&words(other)).cloned().collect()
             };
             let [first, second] = [alone(a, b), alone(b, a)];
             let relation = |option: &String| {

@@ -23,10 +23,10 @@ pub(crate) fn finish(
     if a.inheritrange > 0.0 {
         check.inherit(a, bodies, tendons);
     }
-    for (limit, of) in
+    for (limit, kind) in
         [(&mut a.ctrl, &limits::CONTROL), (&mut a.force, &limits::FORCE), (&mut a.act, &limits::ACTIVATION)]
     {
-        check.limit(limit, of);
+        check.limit(limit, kind);
     }
     check.family(a);
     check.numbers(a);
@@ -79,11 +79,11 @@ impl ActuatorCheck<'_, '_> {
         self.cx.report.error(rules::ACTUATOR, span, message)
     }
 
-    fn limit(&mut self, limit: &mut RangeSpec, of: &limits::Limit) {
-        let span = self.node.attribute(of.range).map_or(self.node.span.clone(), |a| a.span.clone());
+    fn limit(&mut self, limit: &mut RangeSpec, kind: &limits::Limit) {
+        let span = self.node.attribute(kind.range).map_or(self.node.span.clone(), |a| a.span.clone());
         let owner = self.node.describe();
         let given = limit.range != [0.0; 2];
-        let limited = limits::decide(self.cx, limit.flag, given, limit.range, span, &owner, of);
+        let limited = limits::decide(self.cx, limit.flag, given, limit.range, span, &owner, kind);
         limit.flag = i32::from(limited);
     }
 

@@ -196,12 +196,12 @@ fn check_transmission_attribute(
     report: &mut Diagnostics,
 ) {
     let owner = node.describe();
-    for (name, of, needs) in [
+    for (name, transmission, needs) in [
         ("slidersite", trntype::SLIDERCRANK, "cranksite"),
         ("cranklength", trntype::SLIDERCRANK, "cranksite"),
         ("refsite", trntype::SITE, "site"),
     ] {
-        if let Some(a) = node.attribute(name).filter(|_| kind != of) {
+        if let Some(a) = node.attribute(name).filter(|_| kind != transmission) {
             report
                 .error(
                     rules::ACTUATOR,

@@ -48,7 +48,7 @@ fn graph_len(mesh: &CompiledMesh) -> usize {
 
 pub(crate) fn meshes(m: &mut Model, assets: &Assets) {
     let list: Vec<&CompiledMesh> = listed(assets.meshes.iter().filter_map(|a| a.value.as_ref()));
-    let counts = |of: fn(&CompiledMesh) -> usize| -> Vec<usize> { listed(list.iter().map(|x| of(x))) };
+    let counts = |count: fn(&CompiledMesh) -> usize| -> Vec<usize> { listed(list.iter().map(|x| count(x))) };
     let numbers =
         |counts: &[usize]| (addresses(counts.iter().copied()), listed(counts.iter().map(|&n| n as i32)));
     (m.mesh_vertadr, m.mesh_vertnum) = numbers(&counts(|x| x.shape.vert.len()));

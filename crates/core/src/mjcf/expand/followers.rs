@@ -11,7 +11,7 @@ use crate::mjcf::text::tree::ElementNode;
 #[derive(Debug, Default)]
 pub(super) struct Uses {
     /// For each object, the section (an index of [`SECTIONS`]) and the element of each reference to it.
-    of: BTreeMap<(&'static str, String), Vec<(usize, usize)>>,
+    by_object: BTreeMap<(&'static str, String), Vec<(usize, usize)>>,
     /// Elements without references.
     free: Vec<(usize, usize)>,
     gone: BTreeSet<usize>,
@@ -48,7 +48,7 @@ impl Uses {
             self.free.push((section, at));
         }
         for object in refs {
-            self.of.entry(object).or_default().push((section, at));
+            self.by_object.entry(object).or_default().push((section, at));
         }
     }
 
@@ -86,7 +86,7 @@ impl Uses {
         let mut followed = subtree.clone();
         let mut new: Vec<(&'static str, String)> = listed(subtree.iter().cloned());
         while let Some(object) = new.pop() {
-            for &(section, at) in self.of.get(&object).map_or(&[][..], Vec::as_slice) {
+            for &(section, at) in self.by_object.get(&object).map_or(&[][..], Vec::as_slice) {
                 if !self.gone.contains(&at) && bound.insert((section, at)) {
                     new.extend(nodes.get(at).and_then(own_name).filter(|name| followed.insert(name.clone())));
                 }

@@ -141,14 +141,14 @@ fn fuse_static(bodies: &mut Vec<BodySpec>, inertias: &mut Vec<Inertia>, tree: &E
 
 /// All objects that elements refer to.
 fn references(tree: &ElementTree) -> Names {
-    let of = |node: &ElementNode| {
+    let files_of = |node: &ElementNode| {
         let names = node.attributes.iter().filter_map(|a| match (kind_of(node, a), &a.value) {
             (Some(kind), Value::Text(name)) => Some((kind, name.clone())),
             _ => None,
         });
         listed(names)
     };
-    filled(tree.nodes.iter().flat_map(of))
+    filled(tree.nodes.iter().flat_map(files_of))
 }
 
 /// The sites at which forces between bodies are measured. Their bodies must not be merged, because the force acts between body

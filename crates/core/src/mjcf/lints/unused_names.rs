@@ -67,8 +67,8 @@ pub(super) fn check_names(tree: &ElementTree, report: &mut Diagnostics) {
 }
 
 /// The names of the classes within a class.
-fn below(tree: &ElementTree, of: usize) -> Vec<&str> {
-    let (mut names, mut open) = (Vec::new(), vec![of]);
+fn below(tree: &ElementTree, root: usize) -> Vec<&str> {
+    let (mut names, mut open) = (Vec::new(), vec![root]);
     while let Some(at) = open.pop() {
         for (i, node) in tree.children(at).filter(|(_, n)| n.element.name == "default") {
             open.push(i);

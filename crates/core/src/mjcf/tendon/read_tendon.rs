@@ -89,9 +89,9 @@ pub(crate) fn check_rotors(tendons: &[TendonSpec], actuators: &[ActuatorSpec], r
         let Some(t) = a.transmission.filter(|t| t.kind == trntype::TENDON) else { continue };
         let tendon = usize::try_from(t.id[0]).ok().and_then(|t| tendons.get(t));
         if let Some(tendon) = tendon.filter(|t| wraps_geoms(&t.path)) {
-            let of = if tendon.name.is_empty() { String::new() } else { format!(" `{}`", tendon.name) };
+            let name = if tendon.name.is_empty() { String::new() } else { format!(" `{}`", tendon.name) };
             let message =
-                format!("{} has armature and acts on tendon{of}, which wraps around a geom", a.described);
+                format!("{} has armature and acts on tendon{name}, which wraps around a geom", a.described);
             report
                 .error(rules::TENDON, a.span.clone(), message)
                 .why(NO_SECOND_DERIVATIVE)

@@ -91,8 +91,8 @@ pub(crate) struct ElementTree {
 
 impl ElementTree {
     /// The elements of this name directly below a node, with their indices.
-    pub(crate) fn children(&self, of: usize) -> impl Iterator<Item = (usize, &ElementNode)> {
-        let list = self.nodes.get(of).map_or(&[][..], |n| &n.children);
+    pub(crate) fn children(&self, parent: usize) -> impl Iterator<Item = (usize, &ElementNode)> {
+        let list = self.nodes.get(parent).map_or(&[][..], |n| &n.children);
         list.iter().filter_map(|&i| self.nodes.get(i).map(|n| (i, n)))
     }
 
@@ -309,7 +309,7 @@ fn counts_when_empty(element: &str, attribute: &str) -> bool {
     attribute == "quat"
         || (element == "inertial" && crate::mjcf::schema::is_form(attribute))
         || matches!((element, attribute), ("connect" | "weld", "anchor" | "relpose"))
-        || EXCLUSIVE.iter().any(|(of, pair)| *of == element && pair.contains(&attribute))
+        || EXCLUSIVE.iter().any(|(name, pair)| *name == element && pair.contains(&attribute))
 }
 
 /// Pairs of attributes that exclude each other. MuJoCo's schema checks the element itself, not its class. (Exclusive attributes
@@ -323,7 +323,7 @@ const EXCLUSIVE: [(&str, [&str; 2]); 4] = [
 
 fn exclusive(list: &[Attribute], element: &Element, report: &mut Diagnostics) {
     let find = |name: &str| list.iter().find(|a| a.attr.name == name);
-    for (_, [first, second]) in EXCLUSIVE.iter().filter(|(of, _)| *of == element.name) {
+    for (_, [first, second]) in EXCLUSIVE.iter().filter(|(name, _)| *name == element.name) {
         if let (Some(_), Some(other)) = (find(first), find(second)) {
             let message = format!("{} has both `{first}` and `{second}`", element.name);
             report

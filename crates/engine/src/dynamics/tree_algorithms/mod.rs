@@ -317,13 +317,13 @@ macro_rules! each {
 /// Computes the poses of bodies and joints: `xpos xmat xipos ximat xanchor xaxis`.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn forward_kinematics(m: &Model, d: &mut Fields, w: &mut DynamicsScratch) {
-    each!(w, places, |_algorithm, row, of| (of.forward_kinematics)(m, d, w));
+    each!(w, places, |_algorithm, row, functions| (functions.forward_kinematics)(m, d, w));
 }
 
 /// Computes the orientations of bodies as quaternions, `xquat`, after [`forward_kinematics`].
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn orientations(d: &mut Fields, w: &mut DynamicsScratch) {
-    each!(w, places, |_algorithm, row, of| (of.orientations)(d, w));
+    each!(w, places, |_algorithm, row, functions| (functions.orientations)(d, w));
 }
 
 /// Computes `M`. `general` selects whether this includes the rows of the general algorithm, and `rows` the rows of
@@ -331,9 +331,9 @@ pub(crate) fn orientations(d: &mut Fields, w: &mut DynamicsScratch) {
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn mass(m: &Model, d: &mut Fields, w: &mut DynamicsScratch, general: bool, rows: bool) {
     w.needs_mass_rows = rows;
-    each!(w, forces, |algorithm, row, of| {
+    each!(w, forces, |algorithm, row, functions| {
         if algorithm.0 != GENERAL as u8 || general {
-            (of.mass)(m, d, w);
+            (functions.mass)(m, d, w);
         }
     });
 }
@@ -342,7 +342,7 @@ pub(crate) fn mass(m: &Model, d: &mut Fields, w: &mut DynamicsScratch, general: 
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn bias(m: &Model, d: &mut Fields, w: &mut DynamicsScratch) {
     let gravity = if m.opt.disabled(disable::GRAVITY) { [0.0; 3] } else { m.opt.gravity };
-    each!(w, forces, |_algorithm, row, of| (of.bias)(m, d, w, gravity));
+    each!(w, forces, |_algorithm, row, functions| (functions.bias)(m, d, w, gravity));
 }
 
 /// Computes `qLD` and `qLDiagInv`, the factorization of M. Returns the first degree of freedom whose D is not
@@ -350,7 +350,7 @@ pub(crate) fn bias(m: &Model, d: &mut Fields, w: &mut DynamicsScratch) {
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn factor(m: &Model, d: &mut Fields, w: &mut DynamicsScratch) -> Option<usize> {
     let mut bad = None;
-    each!(w, factors, |_algorithm, row, of| bad = first(bad, (of.factor)(m, d, w)));
+    each!(w, factors, |_algorithm, row, functions| bad = first(bad, (functions.factor)(m, d, w)));
     bad
 }
 
@@ -360,20 +360,20 @@ pub(crate) fn factor(m: &Model, d: &mut Fields, w: &mut DynamicsScratch) -> Opti
 pub(crate) fn complete(m: &Model, d: &mut Fields, w: &mut DynamicsScratch) {
     if w.rows_due {
         w.rows_due = false;
-        each!(w, factors, |_algorithm, row, of| (of.complete)(m, d, w));
+        each!(w, factors, |_algorithm, row, functions| (functions.complete)(m, d, w));
     }
 }
 
 /// x ← M⁻¹ x, using the result of [`factor`].
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn solve(m: &Model, d: &Fields, w: &mut DynamicsScratch, x: &mut [f64]) {
-    each!(w, factors, |_algorithm, row, of| (of.solve)(m, d, w, x));
+    each!(w, factors, |_algorithm, row, functions| (functions.solve)(m, d, w, x));
 }
 
 /// x ← (M + B)⁻¹ x for a diagonal matrix B (nv), after [`factor`].
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn solve_with(m: &Model, d: &Fields, w: &mut DynamicsScratch, b: &[f64], x: &mut [f64]) {
-    each!(w, factors, |_algorithm, row, of| (of.solve_with)(m, d, w, b, x));
+    each!(w, factors, |_algorithm, row, functions| (functions.solve_with)(m, d, w, b, x));
 }
 
 /// Factorizes and solves x ← M⁻¹ x at once, without a call of [`factor`].
@@ -385,7 +385,8 @@ pub(crate) fn factor_and_solve(
     x: &mut [f64],
 ) -> Option<usize> {
     let mut bad = None;
-    each!(w, factors, |_algorithm, row, of| bad = first(bad, (of.factor_and_solve)(m, d, w, x)));
+    each!(w, factors, |_algorithm, row, functions| bad =
+        first(bad, (functions.factor_and_solve)(m, d, w, x)));
     bad
 }
 
@@ -401,8 +402,8 @@ pub(crate) fn solve_both(
     y: &mut [f64],
 ) -> Option<usize> {
     let mut bad = None;
-    each!(w, factors, |_algorithm, row, of| bad =
-        first(bad, (of.solve_both)(m, d, w, (b, &mut *x, &mut *y))));
+    each!(w, factors, |_algorithm, row, functions| bad =
+        first(bad, (functions.solve_both)(m, d, w, (b, &mut *x, &mut *y))));
     bad
 }
 

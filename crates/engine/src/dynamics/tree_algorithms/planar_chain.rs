@@ -89,19 +89,19 @@ struct FourHinges {
 
 fn load_hinges(hinges: &mut [FourHinges], links: &[PlanarLink]) {
     for (hinges, four) in hinges.iter_mut().zip(links.chunks(4)) {
-        let of = |get: fn(&PlanarLink) -> f64| f64x4::new(from_fn(|i| four.get(i).map_or(0.0, get)));
-        hinges.anchor = [of(|link| link.anchor[0]), of(|link| link.anchor[1])];
-        hinges.sense = of(|link| link.sense);
+        let gathered = |get: fn(&PlanarLink) -> f64| f64x4::new(from_fn(|i| four.get(i).map_or(0.0, get)));
+        hinges.anchor = [gathered(|link| link.anchor[0]), gathered(|link| link.anchor[1])];
+        hinges.sense = gathered(|link| link.sense);
     }
 }
 
-/// Writes a row of n elements at the start of `rows`, which ends with the last row of the chain: `of` gives the elements from their
+/// Writes a row of n elements at the start of `rows`, which ends with the last row of the chain: `get` gives the elements from their
 /// hinges. The last group may also write elements of the next rows, so rows are written in ascending order.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn fill(rows: &mut [f64], n: usize, hinges: &[FourHinges], of: impl Fn(&FourHinges) -> f64x4) {
+fn fill(rows: &mut [f64], n: usize, hinges: &[FourHinges], get: impl Fn(&FourHinges) -> f64x4) {
     let groups = n.div_ceil(4).min(hinges.len());
     for (to, hinges) in rows.chunks_mut(4).zip(&hinges[..groups]) {
-        let elements = of(hinges).to_array();
+        let elements = get(hinges).to_array();
         match to.first_chunk_mut() {
             Some(four) => *four = elements,
             None => to.iter_mut().zip(elements).for_each(|(to, element)| *to = element),

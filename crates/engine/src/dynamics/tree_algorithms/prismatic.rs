@@ -79,7 +79,7 @@ struct FactoredTree {
     dofs: Range<usize>,
     /// The range of its rows of M.
     rows: Range<usize>,
-    of: Vec<f64>,
+    matrix: Vec<f64>,
     ld: Vec<f64>,
     diag_inv: Vec<f64>,
 }
@@ -159,16 +159,16 @@ fn factor(m: &Model, d: &mut Fields, w: &mut DynamicsScratch) -> Option<usize> {
     let mut bad = None;
     for tree in &mut w.algorithms.prismatic.factored {
         let (rows, dofs) = (tree.rows.clone(), tree.dofs.clone());
-        if same_bits(&tree.of, &d.M[rows.clone()]) {
+        if same_bits(&tree.matrix, &d.M[rows.clone()]) {
             d.qLD[rows].copy_from_slice(&tree.ld);
             d.qLDiagInv[dofs].copy_from_slice(&tree.diag_inv);
             continue;
         }
         let failed = rows_of_mass::factor_copy(m, &d.M, &mut d.qLD, &mut d.qLDiagInv, dofs.clone());
         // A failed factorization is not reused, so that the next step warns again.
-        tree.of.clear();
+        tree.matrix.clear();
         if failed.is_none() {
-            tree.of.extend_from_slice(&d.M[rows.clone()]);
+            tree.matrix.extend_from_slice(&d.M[rows.clone()]);
             tree.ld.clear();
             tree.ld.extend_from_slice(&d.qLD[rows]);
             tree.diag_inv.clear();

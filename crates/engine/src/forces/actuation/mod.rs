@@ -39,8 +39,8 @@ fn acts(m: &Model, d: &Fields, i: usize) -> bool {
 }
 
 /// The ten parameters of actuator `i`.
-pub(crate) fn prm(of: &[f64], i: usize) -> &[f64; 10] {
-    &rows::<10>(of)[i]
+pub(crate) fn prm(numbers: &[f64], i: usize) -> &[f64; 10] {
+    &rows::<10>(numbers)[i]
 }
 
 /// Addresses of the activations of actuator `i`.

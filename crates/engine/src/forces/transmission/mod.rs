@@ -54,7 +54,7 @@ pub fn row(d: &Fields, o: usize) -> std::ops::Range<usize> {
 /// The largest possible number of entries of the moments of all actuators (`nJmom`).
 pub fn entries(m: &Model) -> usize {
     let site_body = |s: usize| m.site_bodyid[s] as usize;
-    let of = |i: usize| match (m.actuator_trntype[i], target(m, i)) {
+    let entries_of_actuator = |i: usize| match (m.actuator_trntype[i], target(m, i)) {
         (trntype::JOINT | trntype::JOINTINPARENT, (j, _)) => joint::nv(m.jnt_type[j]),
         (trntype::TENDON, (t, _)) => m.ten_J_rownnz[t] as usize,
         (trntype::SITE, (s, None)) => walk::moving(m, site_body(s)).count(),
@@ -66,7 +66,7 @@ pub fn entries(m: &Model) -> usize {
         (trntype::SO3, _) => 3 * m.nv,
         _ => m.nv,
     };
-    (0..m.nactuator).map(of).sum()
+    (0..m.nactuator).map(entries_of_actuator).sum()
 }
 
 /// Computes `actuator_length`, `actuator_moment` and its pattern. A sleeping actuator keeps its lengths and has no moments.

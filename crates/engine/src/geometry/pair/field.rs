@@ -112,7 +112,8 @@ fn is_near(field: &HeightField, [[x0, x1], [y0, y1], [z0, z1]]: &[[f64; 2]; 3], 
 /// A lower bound of the distance between a prism and a body within these bounds.
 fn gap(corners: &[Vec3; 6], bounds: &[[f64; 2]; 3]) -> f64 {
     norm(std::array::from_fn(|i| {
-        let reach = |least: f64, of: fn(f64, f64) -> f64| corners.iter().map(|p| p[i]).fold(least, of);
+        let reach =
+            |least: f64, extreme: fn(f64, f64) -> f64| corners.iter().map(|p| p[i]).fold(least, extreme);
         let (low, high) = (reach(f64::INFINITY, f64::min), reach(f64::NEG_INFINITY, f64::max));
         let [from, to] = bounds[i];
         (from - high).max(low - to).max(0.0)

@@ -381,9 +381,9 @@ impl<'a> Binder<'a> {
                 let id = |n: &String| {
                     Some((n.as_str().into(), Value::Number(f64::from(self.schema.lookup(collection, n)?.0))))
                 };
-                let mut of: Vec<_> = names.iter().filter_map(id).collect();
-                order::sort_by(&mut of, |a: &(std::sync::Arc<str>, Value), b| a.0.cmp(&b.0));
-                let picks = MemberTable { noun, of, scalar: false };
+                let mut members: Vec<_> = names.iter().filter_map(id).collect();
+                order::sort_by(&mut members, |a: &(std::sync::Arc<str>, Value), b| a.0.cmp(&b.0));
+                let picks = MemberTable { noun, members, scalar: false };
                 Ok(Ir::new(IrKind::Pick(picks.into(), Box::new(name)), Type::Number, arg.span))
             }
         }

@@ -199,10 +199,10 @@ impl<'a> Partners<'a> {
         let base = verify.lab.as_ref().map_or(lab, |named| self.lesson.named(named));
         let of_run = |run| lab_of(self.lesson, base, run);
         let labs: Vec<&Lab> = base.into_iter().chain(verify.runs.iter().filter_map(of_run)).collect();
-        let of = |c: &&PartnerCandidate<'_>| {
+        let follows = |c: &&PartnerCandidate<'_>| {
             labs.iter().any(|lab| c.lab.is_some_and(|of_claim| std::ptr::eq(of_claim, *lab)))
         };
-        let mut all: Vec<PartnerCandidate<'a>> = self.candidates.iter().filter(of).cloned().collect();
+        let mut all: Vec<PartnerCandidate<'a>> = self.candidates.iter().filter(follows).cloned().collect();
         for text in changes(verify) {
             let pairs = PairSet::ALL.without(suppressed_pairs(self.lesson, text, PairSet::ALL));
             let subject = format!("the change of `{}`", text.value);

@@ -165,8 +165,8 @@ impl<'a> SetConstBench<'a> {
                     vec![(Move::Press(index), format!("after \"{label}\" is pressed"))]
                 }
                 _ => {
-                    let of = |v: Value| (Move::Set(index, v.clone()), format!("with \"{label}\" at {v}"));
-                    choices(control).into_iter().map(of).collect()
+                    let trial = |v: Value| (Move::Set(index, v.clone()), format!("with \"{label}\" at {v}"));
+                    choices(control).into_iter().map(trial).collect()
                 }
             }
         };

@@ -170,7 +170,7 @@ pub(super) fn found(findings: &[&Finding], sources: &[&SourceFile], names: &Name
 /// Writes the labs: the results of their runs, and their claims.
 fn labs(part: &LessonReport<'_>) -> String {
     let LessonReport { checked, context, questions, .. } = part;
-    let of = |verify: Option<&Verify>| {
+    let claims_of = |verify: Option<&Verify>| {
         verify.and_then(|v| checked.claims.iter().find(|claim| claim.span == v.span))
     };
     let mut out = String::new();
@@ -188,7 +188,7 @@ fn labs(part: &LessonReport<'_>) -> String {
         if let Some(e) = entry.filter(|e| !e.remark.is_empty()) {
             let _ = writeln!(out, "<p class=\"why\">{}</p>", text(&context.names.shorten(&e.remark)));
         }
-        if let Some(claim) = of(verify) {
+        if let Some(claim) = claims_of(verify) {
             out.push_str(&evidence(claim, verify, context));
         }
         out.push_str("</article>\n");

@@ -34,7 +34,7 @@ fn is_claimed(asked: &&QuestionPage<'_>) -> bool {
 
 /// Writes the counts of numbers and questions of the course.
 fn whole(parts: &[LessonReport<'_>]) -> String {
-    let sum = |of: &dyn Fn(&LessonReport<'_>) -> usize| parts.iter().map(of).sum::<usize>();
+    let sum = |count: &dyn Fn(&LessonReport<'_>) -> usize| parts.iter().map(count).sum::<usize>();
     let (questions, checked) = (sum(&|p| keyed(p).count()), sum(&|p| keyed(p).filter(is_claimed).count()));
     let (numbers, claimed) = (sum(&|p| p.coverage.all()), sum(&|p| p.coverage.claimed));
     let mut out = String::from("<dl class=\"whole\">\n");

@@ -109,8 +109,8 @@ impl CompiledMesh {
     /// the sizes of the box.
     fn enclosing_size(&self, kind: i32) -> Option<Vec3> {
         let middle = self.centre();
-        let largest = |of: &dyn Fn(Vec3) -> f64| {
-            self.shape.vert.iter().fold(0.0_f64, |largest, &v| largest.max(of(sub(v, middle))))
+        let largest = |distance: &dyn Fn(Vec3) -> f64| {
+            self.shape.vert.iter().fold(0.0_f64, |largest, &v| largest.max(distance(sub(v, middle))))
         };
         let across = |[x, y, _]: Vec3| libm::sqrt(x * x + y * y);
         Some(match kind {

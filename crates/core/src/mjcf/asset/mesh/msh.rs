@@ -14,8 +14,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raw, AssetProblem> {
     };
     let mut numbers = Bytes(bytes);
     let sizes: [i32; 4] = numbers.ints().ok_or_else(cut)?;
-    let of = |i: usize| usize::try_from(sizes[i]).unwrap_or(usize::MAX);
-    let [nvert, nnormal, ntexcoord, nface] = [of(0), of(1), of(2), of(3)];
+    let size = |i: usize| usize::try_from(sizes[i]).unwrap_or(usize::MAX);
+    let [nvert, nnormal, ntexcoord, nface] = [size(0), size(1), size(2), size(3)];
     let same = |n: usize| n == 0 || n == nvert;
     if !(4..=MAX_VERTICES).contains(&nvert) || nface > MAX_FACES || !same(nnormal) || !same(ntexcoord) {
         let [v, n, t, f] = sizes;

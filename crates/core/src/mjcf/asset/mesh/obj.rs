@@ -72,13 +72,13 @@ fn add_triangles(raw: &mut Raw, polygons: &[Vec<Corner>]) -> Result<(), AssetPro
             places.push(place);
         }
         for triangle in triangulate::triangles(&places) {
-            let of = |what: usize| triangle.map(|k| corners.get(k).map_or(-1, |c| c[what]));
-            raw.face.push(of(0));
+            let indexes = |what: usize| triangle.map(|k| corners.get(k).map_or(-1, |c| c[what]));
+            raw.face.push(indexes(0));
             if !raw.texcoord.is_empty() {
-                raw.facetexcoord.push(of(1));
+                raw.facetexcoord.push(indexes(1));
             }
             if !raw.normal.is_empty() {
-                raw.facenormal.push(of(2));
+                raw.facenormal.push(indexes(2));
             }
         }
     }
