@@ -42,7 +42,7 @@ impl RunningCheck {
         done: impl FnOnce(FinishedJob) + Send + 'static,
     ) -> Option<RunningCheck> {
         let (stop, uri) = (Arc::new(AtomicBool::new(false)), uri.to_string());
-        let (asked, of) = (stop.clone(), uri.clone());
+        let (asked, document) = (stop.clone(), uri.clone());
         let work = move || {
             let findings = interrupt::until(asked.clone(), || {
                 let lesson = load_lesson_at(file, &path, &sources, models.folder());
@@ -50,7 +50,7 @@ impl RunningCheck {
             });
             // The results of a cancelled check are discarded.
             if !asked.load(Ordering::Relaxed) {
-                done(FinishedJob { job: number, uri: of, version, findings });
+                done(FinishedJob { job: number, uri: document, version, findings });
             }
         };
         threads::checking().spawn(work).ok()?;

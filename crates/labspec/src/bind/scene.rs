@@ -151,21 +151,21 @@ impl Models {
         })
     }
 
-    /// Calls `of` with the text of a lab's model, the files that it names, and its own name among them. `None` when it
+    /// Calls `read` with the text of a lab's model, the files that it names, and its own name among them. `None` when it
     /// cannot be read.
-    fn texts<T>(&self, lab: &Lab, of: impl FnOnce(&str, &dyn Files, Option<&str>) -> T) -> Option<T> {
+    fn texts<T>(&self, lab: &Lab, read: impl FnOnce(&str, &dyn Files, Option<&str>) -> T) -> Option<T> {
         let name = match lab.scene()? {
-            ModelSource::Xml(text) => return Some(of(&text.value, &NoFiles, None)),
+            ModelSource::Xml(text) => return Some(read(&text.value, &NoFiles, None)),
             ModelSource::Model(name) => &name.value,
         };
         let file = Some(format!("{name}.xml"));
         if let Some(given) = self.folder.given() {
-            return Some(of(&given.text(name)?, &FilesOf(given), file.as_deref()));
+            return Some(read(&given.text(name)?, &FilesOf(given), file.as_deref()));
         }
         let path = self.folder.path(name)?;
         let text = read_file(&path, &self.sources).ok()?;
         let files = FilesAround::below(&path, self.folder.root(), &self.sources);
-        Some(of(text.text(), &files, file.as_deref()))
+        Some(read(text.text(), &files, file.as_deref()))
     }
 
     /// The model with this name; `None` when there is none or it has errors, which are then findings of the models.

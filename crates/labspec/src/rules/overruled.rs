@@ -124,13 +124,13 @@ fn initial_value(
     }
     let start = Start { budget: observed.bench.budget(), ..Start::of_lab(ready.lab) };
     let mut session = Session::start(&programs, &ready.model, start);
-    let now = |session: &Session<'_>| elements.iter().map(|e| e.value(session)).collect::<Vec<f64>>();
-    let begins = now(&session);
+    let elements_of = |session: &Session<'_>| elements.iter().map(|e| e.value(session)).collect::<Vec<f64>>();
+    let begins = elements_of(&session);
     session.set_control(index, current.clone());
-    let says = now(&session);
+    let says = elements_of(&session);
     session.set_control(index, current.clone());
     // Statements that add to the current value give no initial value.
-    if now(&session) != says || session.ended().is_some() {
+    if elements_of(&session) != says || session.ended().is_some() {
         return None;
     }
     let differ = |(a, b): (&f64, &f64)| (a - b).abs() > 1e-9 * a.abs().max(b.abs());
@@ -196,7 +196,7 @@ fn after(
     elements: &[WrittenElement],
 ) -> Option<(Vec<f64>, Vec<f64>)> {
     let mut session = observed.bench.start();
-    let now = |session: &Session<'_>| elements.iter().map(|e| e.value(session)).collect::<Vec<f64>>();
+    let elements_of = |session: &Session<'_>| elements.iter().map(|e| e.value(session)).collect::<Vec<f64>>();
     for step in 0..at {
         for m in setting.iter().filter(|m| m.step == step) {
             match &m.value {
@@ -207,9 +207,9 @@ fn after(
         session.step();
     }
     session.set_control(index, value.clone());
-    let set = now(&session);
+    let set = elements_of(&session);
     session.step();
-    let then = now(&session);
+    let then = elements_of(&session);
     let (spent, completed) = (session.spent(), session.ended().is_none());
     drop(session);
     observed.bench.left = observed.bench.left.saturating_sub(spent);

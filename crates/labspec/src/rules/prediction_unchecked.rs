@@ -28,8 +28,8 @@ fn check_lesson(lesson: &Lesson, findings: &mut Vec<Finding>) {
     let open: Vec<&&Question> = predictions.iter().filter(|q| q.verify.is_none()).collect();
     // A single prediction is not reported, but counted among the unchecked answers.
     let Some(first) = open.first().filter(|_| predictions.len() > 1) else { return };
-    let (count, of) = (open.len(), predictions.len());
-    let message = format!("{count} of {of} predictions have no `verify`; this is the first one");
+    let (count, total) = (open.len(), predictions.len());
+    let message = format!("{count} of {total} predictions have no `verify`; this is the first one");
     findings.push(
         Finding::new(PREDICTION_UNCHECKED, first.span.clone(), message).help(
             "add a `verify` with what to measure in the lab of the question and one condition per option",

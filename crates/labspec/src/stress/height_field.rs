@@ -18,8 +18,9 @@ pub(super) struct HeightFieldPair {
 pub(super) fn over(m: &Model, most: usize) -> Vec<HeightFieldPair> {
     let moves = |g: &usize| m.body_treeid.get(body_of(m, *g)).is_some_and(|&t| t >= 0);
     let fields: Vec<usize> = (0..m.ngeom).filter(|&p| m.geom_type.get(p) == Some(&geom::HFIELD)).collect();
-    let of = |&p: &usize| (0..m.ngeom).filter(moves).filter(move |&g| may_meet(m, g, p)).map(move |g| [g, p]);
-    let pairs = fields.iter().flat_map(of).filter(|[g, _]| geom_thickness(m, *g).is_finite());
+    let pairs_of_field =
+        |&p: &usize| (0..m.ngeom).filter(moves).filter(move |&g| may_meet(m, g, p)).map(move |g| [g, p]);
+    let pairs = fields.iter().flat_map(pairs_of_field).filter(|[g, _]| geom_thickness(m, *g).is_finite());
     pairs.take(most).map(|geoms| HeightFieldPair { geoms, above: None, done: false }).collect()
 }
 

@@ -216,7 +216,7 @@ pub fn list_interactions(lab: &Lab, window: f64, base: &Interaction) -> (Vec<Int
         all.extend(moved.map(|v| base.and(InteractionKind::End, vec![set(*i, v)])));
     }
     all.extend(buttons.iter().map(|b| base.and(InteractionKind::Button, vec![press_at(*b, press)])));
-    let spread = |k: usize, of: usize| press + (window - press).max(0.0) * k as f64 / of.max(1) as f64;
+    let spread = |k: usize, count: usize| press + (window - press).max(0.0) * k as f64 / count.max(1) as f64;
     if buttons.len() > 1 {
         let actions = buttons.iter().enumerate().map(|(k, b)| press_at(*b, spread(k, buttons.len())));
         all.push(base.and(InteractionKind::InOrder, actions.collect()));
@@ -280,9 +280,9 @@ fn interleaved(
     // A select without options has no value.
     let is_button = |i: &usize| buttons.contains(i);
     list.retain(|(i, value)| is_button(i) || value.is_some());
-    let of = list.len();
+    let count = list.len();
     let timed = list.into_iter().enumerate();
-    Some(timed.map(|(k, (control, value))| Action { time: spread(k, of), control, value }).collect())
+    Some(timed.map(|(k, (control, value))| Action { time: spread(k, count), control, value }).collect())
 }
 
 #[cfg(test)]

@@ -240,11 +240,11 @@ impl<'a> BoundVerify<'a> {
 
     /// The labs of every run, in the form that [`BoundVerify::new`] takes.
     pub(super) fn labs(&self) -> Vec<Vec<BoundLab<'a>>> {
-        let of = |run: &'a Run| {
+        let labs_of_run = |run: &'a Run| {
             let members = self.runs.iter().filter(|b| b.spec.is_some_and(|spec| std::ptr::eq(spec, run)));
             members.filter_map(|b| self.scene_of(b).map(|s| s.scene.clone())).collect()
         };
-        self.verify.runs.iter().map(of).collect()
+        self.verify.runs.iter().map(labs_of_run).collect()
     }
 
     /// The cache that the `verify` objects of the lesson share.

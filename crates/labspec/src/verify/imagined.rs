@@ -136,7 +136,7 @@ impl BoundVerify<'_> {
         for run in runs {
             let seed = set.wrapping_mul(0x1_0001) ^ (run as u64) << 20;
             let manner = manner(&mut draws, numbers);
-            let here = || measures.iter().filter(|(_, of, _)| *of == run);
+            let here = || measures.iter().filter(|(_, owner, _)| *owner == run);
             self.idle_in(self.runs.get(run)?.scene, |session| {
                 let host = Anything { world: &session.world, seeds: [seed, 0], manner, time: Some(0.0) };
                 let mut imagined = ImaginedRun { host, context: session.context.clone() };

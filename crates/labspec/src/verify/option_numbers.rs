@@ -241,7 +241,7 @@ mod tests {
 
     #[test]
     fn the_requirement_of_a_condition_is_an_interval() {
-        let of =
+        let required =
             |text: &str| required_range(&parse_expression(text).tree).map(|a| (a.quantity, a.low, a.high));
         for (text, quantity, low, high) in [
             ("abs(m - 1.25) < 0.25", "m", 1.0, 1.5),
@@ -250,12 +250,12 @@ mod tests {
             ("1 < 1000 * m", "1000 * m", 1.0, f64::INFINITY),
             ("abs(m / 2 - 1) < 0.5", "m", 1.0, 3.0),
         ] {
-            assert_eq!(of(text), Some((quantity.to_string(), low, high)), "{text}");
+            assert_eq!(required(text), Some((quantity.to_string(), low, high)), "{text}");
         }
         for text in
             ["a < b", "abs(a - b) < 1", "a > 1 && b < 2", "a - b > 1", "a > 1 || a < 0", "true", "abs(m) > 1"]
         {
-            assert_eq!(of(text), None, "{text}");
+            assert_eq!(required(text), None, "{text}");
         }
     }
 }

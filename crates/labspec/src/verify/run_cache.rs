@@ -251,8 +251,8 @@ pub(super) fn misspelt(lab: &Lab, what: &Text) -> Option<Finding> {
     Some(cannot(what.span(), message).help(format!("did you mean `{right}`?")))
 }
 
-fn inside(span: &Range<usize>, of: &Range<usize>) -> bool {
-    of.start <= span.start && span.end <= of.end
+fn inside(span: &Range<usize>, outer: &Range<usize>) -> bool {
+    outer.start <= span.start && span.end <= outer.end
 }
 
 fn cannot(place: Range<usize>, message: String) -> Finding {

@@ -70,7 +70,7 @@ pub fn scaffold(lesson: &Lesson, models: &Models, report_progress: &mut dyn FnMu
         if lab.verify.is_some() || matches!(address, LabAddress::Sim { .. }) {
             continue;
         }
-        let block = blocks.iter().find(|(of, _)| *of == address).map(|(_, block)| block.clone());
+        let block = blocks.iter().find(|(entry, _)| *entry == address).map(|(_, block)| block.clone());
         let found = match block {
             Some(verify) => {
                 ScaffoldOutcome::Proposed { verify, values: Vec::new(), undecided: Vec::new(), verdict: None }

@@ -315,17 +315,17 @@ impl FormulaParser<'_> {
                 })
             }
             FormulaToken::Command(name) => {
-                let of = self.atom()?;
+                let operand = self.atom()?;
                 self.operations += 1;
                 let (function, value) = match name.as_str() {
-                    "sqrt" => ("sqrt", of.value.sqrt()),
-                    "sin" => ("sin", of.value.sin()),
-                    "cos" => ("cos", of.value.cos()),
-                    "tan" => ("tan", of.value.tan()),
-                    "exp" => ("exp", of.value.exp()),
-                    _ => ("log", of.value.ln()),
+                    "sqrt" => ("sqrt", operand.value.sqrt()),
+                    "sin" => ("sin", operand.value.sin()),
+                    "cos" => ("cos", operand.value.cos()),
+                    "tan" => ("tan", operand.value.tan()),
+                    "exp" => ("exp", operand.value.exp()),
+                    _ => ("log", operand.value.ln()),
                 };
-                Some(EvaluatedFormula { code: format!("Math.{function}({})", of.code), value })
+                Some(EvaluatedFormula { code: format!("Math.{function}({})", operand.code), value })
             }
         }
     }

@@ -345,9 +345,9 @@ impl<'n> NumberContext<'n> {
 
     /// The setting that has this number as its value, if there is one.
     fn setting(&self, s: &Stated, labs: &[TracedLab<'_>]) -> Option<String> {
-        let of = |trial: &TraceRun| {
+        let has_value = |trial: &TraceRun| {
             trial.named.is_some_and(|(x, unit)| unit.agrees(&s.dimension) && close(x, si(s)))
         };
-        labs.iter().flat_map(|l| &l.trials).find(|t| of(t)).map(|t| t.words.clone())
+        labs.iter().flat_map(|l| &l.trials).find(|t| has_value(t)).map(|t| t.words.clone())
     }
 }

@@ -131,12 +131,12 @@ impl Shared<'_> {
 
     /// Publishes the pages of a check. A check that fails keeps the lessons of the last one, with the reason.
     fn publish(&self, check: Result<CourseCheck, String>, is_checked: bool) {
-        let now = self.current();
+        let served = self.current();
         let (course, problem) = match check {
             Ok(course) => (Arc::new(course), None),
-            Err(why) => (now.course.clone(), Some(why)),
+            Err(why) => (served.course.clone(), Some(why)),
         };
-        let version = now.version + 1;
+        let version = served.version + 1;
         let made = threads::catch_panic(|| {
             Snapshot::new(&self.material, course, version, is_checked, problem.as_deref())
         });
@@ -155,15 +155,15 @@ impl Shared<'_> {
     fn follow_files(&self) {
         loop {
             std::thread::sleep(PAUSE);
-            let now = self.fingerprint();
-            if locked(&self.newest).0 == now {
+            let fingerprint = self.fingerprint();
+            if locked(&self.newest).0 == fingerprint {
                 continue;
             }
             let check = self.check(CheckLevel::STATIC);
             let mut newest = locked(&self.newest);
             self.publish(check, false);
             // Files that the new text is the first to name are part of the next inspection.
-            *newest = (self.fingerprint_after(now), false);
+            *newest = (self.fingerprint_after(fingerprint), false);
             drop(newest);
             self.changed.notify_all();
         }

@@ -49,7 +49,7 @@ impl Coupled {
 
     /// The pairs that are corrected after a program; `None` where there are none.
     pub(crate) fn pairs_after(&self, program: &Program, text: &Text) -> Option<PairSet> {
-        let listed = self.programs.iter().find(|(of, _)| of == text);
+        let listed = self.programs.iter().find(|(program_text, _)| program_text == text);
         let pairs = listed.map_or(self.others, |(_, pairs)| *pairs);
         let written = pairs.pairs().any(|(_, pair)| writes_field(program, pair.parameter));
         (written || listed.is_some() && self.refresh && writes_inertial(program)).then_some(pairs)

@@ -100,9 +100,9 @@ pub(super) fn other_moments(before: &Model, current: &Model) -> Changes {
 fn changed<'m>(
     before: &'m Model,
     current: &'m Model,
-    of: fn(&Model) -> &[f64],
+    numbers: fn(&Model) -> &[f64],
 ) -> impl Iterator<Item = usize> + 'm {
-    let [a, b] = [before, current].map(of);
+    let [a, b] = [before, current].map(numbers);
     (0..current.ngeom).filter(move |g| (3 * g..3 * g + 3).any(|i| !same((a, b), i)))
 }
 

@@ -78,7 +78,7 @@ pub(super) fn completions_of(
             };
             match inside(&holder, step) {
                 Some(Type::Name(named)) => complete_key(key, ask(named, scope, names), spot),
-                of => values(key, of, scope, spot),
+                ty => values(key, ty, scope, spot),
             }
         }
     };
@@ -114,7 +114,7 @@ fn holder(whole: Option<&'static Object>, found: &JsonScan, index: usize) -> Hol
             None => whole.map_or_else(|| root(scope), |object| Holder::Keys(allowed(&[object], scope))),
             Some((_, ScanStep::Item(_))) if outer_list && !scope.list => root(scope),
             Some((_, step)) => match inside(&at, step) {
-                Some(of) => of_type(of, scope),
+                Some(ty) => of_type(ty, scope),
                 None => Holder::Unknown,
             },
         };
@@ -139,25 +139,25 @@ fn root(scope: &JsonScope) -> Holder {
 /// The type that is expected at this key or item of an object or a list.
 fn inside(holder: &Holder, step: &ScanStep) -> Option<Type> {
     match (holder, step) {
-        (Holder::Keys(keys), ScanStep::Key(name)) => keys.iter().find(|k| k.name == name).map(|k| k.of),
-        (Holder::Of(Type::Map(map)), ScanStep::Key(_)) => Some(map.of),
+        (Holder::Keys(keys), ScanStep::Key(name)) => keys.iter().find(|k| k.name == name).map(|k| k.ty),
+        (Holder::Of(Type::Map(map)), ScanStep::Key(_)) => Some(map.ty),
         (Holder::Of(Type::Switches(_)), ScanStep::Key(_)) => Some(Type::Flag),
         (Holder::Of(Type::List(item)), ScanStep::Item(_)) => Some(**item),
-        (Holder::Of(Type::Pair(parts)), ScanStep::Item(i)) => parts.get(*i).map(|p| p.of),
+        (Holder::Of(Type::Pair(parts)), ScanStep::Item(i)) => parts.get(*i).map(|p| p.ty),
         _ => None,
     }
 }
 
 /// The declared type of an object or a list that is the value of this type.
-fn of_type(of: Type, scope: &JsonScope) -> Holder {
-    match (of, scope.list) {
+fn of_type(ty: Type, scope: &JsonScope) -> Holder {
+    match (ty, scope.list) {
         (Type::Either(a, b), _) => match of_type(*a, scope) {
             Holder::Unknown => of_type(*b, scope),
             found => found,
         },
         (Type::Object(object), false) => Holder::Keys(allowed(&[object], scope)),
         (Type::OneOf(family), false) => Holder::Keys(allowed(&meant(family, scope), scope)),
-        (Type::Map(_) | Type::Switches(_), false) | (Type::List(_) | Type::Pair(_), true) => Holder::Of(of),
+        (Type::Map(_) | Type::Switches(_), false) | (Type::List(_) | Type::Pair(_), true) => Holder::Of(ty),
         _ => Holder::Unknown,
     }
 }
@@ -239,7 +239,7 @@ fn keys(holder: &Holder, scope: &JsonScope, spot: &CursorSpot, colon: bool) -> V
 /// The words that are accepted as a value. `key` is the key of the value.
 fn values(
     key: Option<&'static Key>,
-    of: Option<Type>,
+    ty: Option<Type>,
     scope: &JsonScope,
     spot: &CursorSpot,
 ) -> Vec<Completion> {
@@ -253,7 +253,7 @@ fn values(
         default: key.and_then(default).map(|value| value.to_string()),
         required: false,
     };
-    match of {
+    match ty {
         Some(Type::Words(words)) => {
             let takes = || words.iter().map(|w| format!("\"{}\"", w.text)).collect::<Vec<_>>().join(", ");
             let free = |w: &&Word| !scope.list || !scope.texts.iter().any(|t| t == w.text);

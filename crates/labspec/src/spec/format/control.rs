@@ -95,8 +95,8 @@ pub static SLIDER: Object = Object {
 };
 
 static CHOICE_PARTS: [PairHalf; 2] = [
-    PairHalf { what: "the displayed text", of: Type::Text },
-    PairHalf { what: "the value", of: Type::Scalar },
+    PairHalf { what: "the displayed text", ty: Type::Text },
+    PairHalf { what: "the value", ty: Type::Scalar },
 ];
 static CHOICE: Type = Type::Pair(&CHOICE_PARTS);
 

@@ -94,7 +94,7 @@ pub struct Key {
     /// Its name.
     pub name: &'static str,
     /// The type of its value.
-    pub of: Type,
+    pub ty: Type,
     /// The unit of its number; empty if it has none.
     pub unit: &'static str,
     /// Whether it is required.
@@ -173,19 +173,19 @@ pub struct Word {
 /// One element of a pair.
 #[derive(Debug)]
 pub struct PairHalf {
-    /// Its meaning: `the label of a button`.
+    /// Its meaning: `the label ty a button`.
     pub what: &'static str,
     /// Its type.
-    pub of: Type,
+    pub ty: Type,
 }
 
 /// An object with free names.
 #[derive(Debug)]
 pub struct Map {
-    /// What its keys are: `the label of a trace`.
+    /// What its keys are: `the label ty a trace`.
     pub names: &'static str,
     /// The type of its values.
-    pub of: Type,
+    pub ty: Type,
 }
 
 /// Whether a key is required.
@@ -242,13 +242,13 @@ impl Limits {
 const FIRST: &str = "0.1";
 
 /// An optional key.
-const fn key(name: &'static str, of: Type, doc: &'static str, example: &'static str) -> Key {
+const fn key(name: &'static str, ty: Type, doc: &'static str, example: &'static str) -> Key {
     Key {
         name,
-        of,
+        ty,
         unit: "",
         need: Need::Optional,
-        absent: match of {
+        absent: match ty {
             Type::Flag => Absent::False,
             _ => Absent::Nothing,
         },

@@ -130,25 +130,25 @@ fn reach(from: &'static Object, used: &mut Vec<&'static str>) {
         return;
     }
     used.push(from.name);
-    from.keys.iter().for_each(|k| reach_type(&k.of, used));
+    from.keys.iter().for_each(|k| reach_type(&k.ty, used));
 }
 
-fn reach_type(of: &Type, used: &mut Vec<&'static str>) {
-    match of {
+fn reach_type(ty: &Type, used: &mut Vec<&'static str>) {
+    match ty {
         Type::Object(object) => reach(object, used),
         Type::OneOf(family) => family.objects.iter().for_each(|o| reach(o, used)),
         Type::List(item) => reach_type(item, used),
-        Type::Map(map) => reach_type(&map.of, used),
+        Type::Map(map) => reach_type(&map.ty, used),
         Type::Either(a, b) => [a, b].into_iter().for_each(|t| reach_type(t, used)),
         _ => {}
     }
 }
 
-fn definition(of: &Object) -> SchemaNode {
-    let required: Vec<&str> = of.keys.iter().filter(|k| k.required()).map(|k| k.name).collect();
-    let together: Vec<SchemaNode> = of.together.iter().filter_map(rule).collect();
-    SchemaNode::from(SchemaKeyword::Description(of.doc.into()))
-        .and(closed(of.keys.iter().map(|k| (k.name, property(of, k)))).0)
+fn definition(object: &Object) -> SchemaNode {
+    let required: Vec<&str> = object.keys.iter().filter(|k| k.required()).map(|k| k.name).collect();
+    let together: Vec<SchemaNode> = object.together.iter().filter_map(rule).collect();
+    SchemaNode::from(SchemaKeyword::Description(object.doc.into()))
+        .and(closed(object.keys.iter().map(|k| (k.name, property(object, k)))).0)
         .and((!required.is_empty()).then_some(SchemaKeyword::Required(required)))
         .and((!together.is_empty()).then_some(SchemaKeyword::AllOf(together)))
 }
@@ -164,10 +164,10 @@ fn rule(rule: &Together) -> Option<SchemaNode> {
     }))
 }
 
-fn property(of: &Object, key: &Key) -> SchemaNode {
-    let schema = match of.tag.filter(|(name, _)| *name == key.name) {
+fn property(object: &Object, key: &Key) -> SchemaNode {
+    let schema = match object.tag.filter(|(name, _)| *name == key.name) {
         Some((_, word)) => SchemaNode::from(SchemaKeyword::Const(word)),
-        None => value(&key.of, &key.limits),
+        None => value(&key.ty, &key.limits),
     };
     let unit = if key.unit.is_empty() { String::new() } else { format!(" ({})", key.unit) };
     let example = serde_json::from_str(key.example).ok();
@@ -179,9 +179,9 @@ fn property(of: &Object, key: &Key) -> SchemaNode {
 }
 
 /// The schema of a type.
-fn value(of: &Type, limits: &Limits) -> SchemaNode {
+fn value(ty: &Type, limits: &Limits) -> SchemaNode {
     let none = Limits::default();
-    match of {
+    match ty {
         Type::Text | Type::Name(_) | Type::Html | Type::Code(_) => typed("string"),
         Type::Number => bounded("number", limits),
         Type::Whole => bounded("integer", limits),
@@ -191,10 +191,10 @@ fn value(of: &Type, limits: &Limits) -> SchemaNode {
         Type::List(item) => typed("array").and([SchemaKeyword::Items(value(item, limits))]),
         Type::Numbers(n) => array_of(*n, SchemaKeyword::Items(typed("number"))),
         Type::Pair(parts) => {
-            let part = |p: &PairHalf| value(&p.of, &none).and([SchemaKeyword::Description(p.what.into())]);
+            let part = |p: &PairHalf| value(&p.ty, &none).and([SchemaKeyword::Description(p.what.into())]);
             array_of(2, SchemaKeyword::PrefixItems(parts.iter().map(part).collect()))
         }
-        Type::Map(map) => typed("object").and([SchemaKeyword::AdditionalProperties(value(&map.of, &none))]),
+        Type::Map(map) => typed("object").and([SchemaKeyword::AdditionalProperties(value(&map.ty, &none))]),
         Type::Switches(words) => closed(
             words.iter().map(|w| (w.text, typed("boolean").and([SchemaKeyword::Description(w.doc.into())]))),
         ),

@@ -12,43 +12,43 @@ static TEXT: Type = Type::Text;
 static INLINE: Type = Type::Object(&LAB);
 static EXACT: Type = Type::Object(&CLOSED_FORM);
 
-static RUNS: Map = Map { names: "the name of a run", of: Type::Object(&RUN) };
-static MEASURES: Map = Map { names: "the name of a measure", of: Type::Code(CodeForm::Expression) };
-static FORMS: Map = Map { names: "the label of a trace", of: Type::Either(&EXPRESSION, &EXACT) };
+static RUNS: Map = Map { names: "the name of a run", ty: Type::Object(&RUN) };
+static MEASURES: Map = Map { names: "the name of a measure", ty: Type::Code(CodeForm::Expression) };
+static FORMS: Map = Map { names: "the label of a trace", ty: Type::Either(&EXPRESSION, &EXACT) };
 static SCALAR: Type = Type::Scalar;
 static NUMBER: Type = Type::Number;
 static LIST: Type = Type::List(&NUMBER);
 static CHANGES: Map =
-    Map { names: "kind, name and attribute of an element of the model", of: Type::Either(&SCALAR, &LIST) };
+    Map { names: "kind, name and attribute of an element of the model", ty: Type::Either(&SCALAR, &LIST) };
 static RANGE: Type = Type::Object(&SPAN);
 static SWEPT: Map = Map {
     names: "the label of a control, or an attribute of the model as in `model`",
-    of: Type::Either(&LIST, &RANGE),
+    ty: Type::Either(&LIST, &RANGE),
 };
-static FOUND: Map = Map { names: "the name of a value", of: Type::Object(&FIND) };
+static FOUND: Map = Map { names: "the name of a value", ty: Type::Object(&FIND) };
 static KEYED: [PairHalf; 2] = [
-    PairHalf { what: "the heading of the column that distinguishes the rows", of: Type::Text },
-    PairHalf { what: "the list of its numbers", of: Type::Code(CodeForm::Expression) },
+    PairHalf { what: "the heading of the column that distinguishes the rows", ty: Type::Text },
+    PairHalf { what: "the list of its numbers", ty: Type::Code(CodeForm::Expression) },
 ];
 static A_COLUMN: Type = Type::Object(&COLUMN);
-static SPACE: Map = Map { names: "the label of a slider", of: Type::List(&NUMBER) };
-static SETTINGS: Map = Map { names: "the label of a slider or a select", of: Type::Scalar };
+static SPACE: Map = Map { names: "the label of a slider", ty: Type::List(&NUMBER) };
+static SETTINGS: Map = Map { names: "the label of a slider or a select", ty: Type::Scalar };
 
 static QUOTE: [PairHalf; 2] = [
-    PairHalf { what: "the text that a reader sees, with its number", of: Type::Text },
+    PairHalf { what: "the text that a reader sees, with its number", ty: Type::Text },
     PairHalf {
         what: "what the number must be, or a list: one for each of its numbers, and conditions that its words state",
-        of: Type::Either(&EXPRESSION, &EXPRESSIONS),
+        ty: Type::Either(&EXPRESSION, &EXPRESSIONS),
     },
 ];
 static EXPRESSIONS: Type = Type::List(&EXPRESSION);
-static IN_WORDS: Map = Map { names: "the text of a cell", of: Type::Code(CodeForm::Expression) };
+static IN_WORDS: Map = Map { names: "the text of a cell", ty: Type::Code(CodeForm::Expression) };
 static WORDED: Type = Type::Map(&IN_WORDS);
 static SAID: Type = Type::Pair(&QUOTE);
 
 static PRESSED: [PairHalf; 2] = [
-    PairHalf { what: "the label of a button", of: Type::Text },
-    PairHalf { what: "the time in s", of: Type::Number },
+    PairHalf { what: "the label of a button", ty: Type::Text },
+    PairHalf { what: "the time in s", ty: Type::Number },
 ];
 static PRESS: Type = Type::Pair(&PRESSED);
 

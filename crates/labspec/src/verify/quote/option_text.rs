@@ -309,9 +309,9 @@ mod tests {
 
     #[test]
     fn the_number_of_an_option_is_read() {
-        let of = |text: &str| option_text(text).map(|n| (n.text, n.low, n.high));
+        let parsed = |text: &str| option_text(text).map(|n| (n.text, n.low, n.high));
         let is = |text: &str, low: f64, high: f64| {
-            let (rendered, a, b) = of(text).unwrap_or_else(|| panic!("{text}"));
+            let (rendered, a, b) = parsed(text).unwrap_or_else(|| panic!("{text}"));
             assert!(
                 (a - low).abs() < 1e-9 * low.abs().max(1.0) && (b - high).abs() < 1e-9 * high.abs().max(1.0),
                 "{text}: {rendered} {a} {b}"
@@ -325,7 +325,7 @@ mod tests {
         is("One hundred metres", 95.0, 105.0);
         is("**7 m**", 6.5, 7.5);
         is("roughly 7 m, no more", 6.3, 7.7);
-        assert_eq!(of("more than 7 m"), Some(("7 m".into(), 7.0, f64::INFINITY)));
+        assert_eq!(parsed("more than 7 m"), Some(("7 m".into(), 7.0, f64::INFINITY)));
         for text in [
             "7 m farther",
             "by 7 m",
@@ -339,7 +339,7 @@ mod tests {
             "nothing",
             "it is there after 7 s",
         ] {
-            assert_eq!(of(text), None, "{text}");
+            assert_eq!(parsed(text), None, "{text}");
         }
         let alone = |text: &str| option_text(text).unwrap().alone;
         assert!(alone("about 7 m") && alone("h = 7 m.") && alone("**7 m**") && !alone("It rises to 7 m"));

@@ -124,7 +124,7 @@ mod tests {
     #[test]
     fn units_of_answers_are_converted_or_wrong() {
         let d = |text: &str| units::parse(text);
-        let of = |unit: &str, found: &str| answer_unit(Some(unit), d(found));
+        let checked = |unit: &str, found: &str| answer_unit(Some(unit), d(found));
         for (unit, found, factor) in [
             ("s", "s", 1.0),
             ("ms", "s", 1000.0),
@@ -133,21 +133,21 @@ mod tests {
             ("mm", "m", 1000.0),
             ("%", "1", 100.0),
         ] {
-            let AnswerUnit::Equal(found) = of(unit, found) else { panic!("{unit} {found}") };
+            let AnswerUnit::Equal(found) = checked(unit, found) else { panic!("{unit} {found}") };
             assert!((found / factor - 1.0).abs() < 1e-12, "{unit}: {found}");
         }
         for (unit, found) in
             [("kg", "s"), ("ms", "m"), ("m/s", "m"), ("dB", "s"), ("A", "s"), ("h", "m"), ("°C", "s")]
         {
-            assert!(matches!(of(unit, found), AnswerUnit::Wrong(..)), "{unit} {found}");
+            assert!(matches!(checked(unit, found), AnswerUnit::Wrong(..)), "{unit} {found}");
         }
         assert_eq!(answer_unit(Some("ms"), None), AnswerUnit::Unknown);
         assert_eq!(answer_unit(None, d("s")), AnswerUnit::Unknown);
-        assert_eq!(of("bounces", "1"), AnswerUnit::Unknown);
+        assert_eq!(checked("bounces", "1"), AnswerUnit::Unknown);
         for unit in ["bounces", "S", "blinks of an eye"] {
-            assert!(matches!(of(unit, "s"), AnswerUnit::Unread(..)), "{unit}");
+            assert!(matches!(checked(unit, "s"), AnswerUnit::Unread(..)), "{unit}");
         }
-        assert!(matches!(of("furlongs", "s"), AnswerUnit::Wrong(..)));
+        assert!(matches!(checked("furlongs", "s"), AnswerUnit::Wrong(..)));
         // A number literal that is a factor may have a dimension.
         assert_eq!(answer_unit(Some("m/s"), d("s").map(|s| s.times(9.81))), AnswerUnit::Equal(1.0));
         // The value is already in milliseconds.
