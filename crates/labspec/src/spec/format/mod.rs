@@ -173,7 +173,7 @@ pub struct Word {
 /// One element of a pair.
 #[derive(Debug)]
 pub struct PairHalf {
-    /// Its meaning: `the label ty a button`.
+    /// Its meaning: `the label of a button`.
     pub what: &'static str,
     /// Its type.
     pub ty: Type,
@@ -182,7 +182,7 @@ pub struct PairHalf {
 /// An object with free names.
 #[derive(Debug)]
 pub struct Map {
-    /// What its keys are: `the label ty a trace`.
+    /// What its keys are: `the label of a trace`.
     pub names: &'static str,
     /// The type of its values.
     pub ty: Type,
