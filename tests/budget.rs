@@ -193,11 +193,11 @@ fn iterations_with_nan_end() {
         );
         let t = coverage(&check_lab(&boxes(&many), json!({})));
         println!("{solver} {t:?}");
-        assert!(t.covered == t.wanted || t.ended.unwrap().starts_with("first "), "{solver}");
+        assert!(t.covered == t.requested || t.ended.unwrap().starts_with("first "), "{solver}");
     }
     let setup = "model.opt.tolerance = 0; model.opt.noslip_tolerance = 0; model.opt.noslip_iterations = 1e9; model.opt.iterations = 1e9";
     let t = coverage(&check_lab(&boxes(""), json!({"setup": setup})));
-    assert!(t.covered == t.wanted || t.ended.unwrap().starts_with("first "));
+    assert!(t.covered == t.requested || t.ended.unwrap().starts_with("first "));
 }
 
 #[test]
@@ -225,7 +225,7 @@ fn a_lab_runs_for_the_time_that_a_student_watches() {
             messages(&checked)
         );
         let t = coverage(&checked);
-        assert_eq!((t.covered, t.ended, t.broke), (t.wanted, None, found), "{more}");
+        assert_eq!((t.covered, t.ended, t.broke), (t.requested, None, found), "{more}");
     }
 }
 
@@ -319,7 +319,7 @@ fn real_labs_are_covered() {
                 let breaks = path.ends_with("physics-lab_04_simlab.json");
                 assert_eq!(
                     (t.covered, t.skipped, t.broke),
-                    (t.wanted, 0, breaks),
+                    (t.requested, 0, breaks),
                     "{}: {t:?}",
                     path.display()
                 );

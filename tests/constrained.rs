@@ -136,14 +136,14 @@ fn compare_with_recording(path: &Path, recording: &Value) -> Outcome {
                     // The rounding errors of the terms bound the accuracy of a sum.
                     scale = scale.max(rounding_of_forces(&d) / SOLVED);
                 }
-                let (index, apart) = worst(&ours, &theirs, scale);
+                let (index, difference) = worst(&ours, &theirs, scale);
                 let solved = SOLUTION.contains(&name.as_str());
                 let (most, limit) = if solved { (&mut solution, SOLVED) } else { (&mut rows, ROWS) };
-                *most = most.max(apart);
-                if apart > limit {
+                *most = most.max(difference);
+                if difference > limit {
                     let number = |list: &[f64]| list.get(index).copied().unwrap_or(f64::NAN);
                     found.push(format!(
-                        "{at}, {name}[{index}]: ours {:?}, theirs {:?} ({apart:.1e})",
+                        "{at}, {name}[{index}]: ours {:?}, theirs {:?} ({difference:.1e})",
                         number(&ours),
                         number(&theirs)
                     ));
@@ -246,16 +246,17 @@ fn shared_models_with_constraints() {
         }
     }
     let [same, contacts, refused, differs] = counts;
-    let [along, chaotic, impossible, apart] = paths;
+    let [along, chaotic, impossible, unexplained] = paths;
     let text = format!(
         "# Models with constraints held against MuJoCo 3.14.0\n\nWritten by `tests/constrained.rs`: forward passes, both \
          sides solved to rounding.\n\n{same} the same within {SOLVED:.0e}, {contacts} with other contacts, {refused} \
          refused, {differs} differ.\n\nA hundred steps from the start with the solver as the model has it: {along} the same within \
-         {PATH:.0e}, {chaotic} chaotic, {impossible} refused there, {apart} differ.\n\n| model | outcome | where |\n|---|---|---|\n{table}"
+         {PATH:.0e}, {chaotic} chaotic, {impossible} refused there, {unexplained} differ.\n\n| model | outcome | where |\n|---|---|---|\n{table}"
     );
     // More differences than listed are a failure, independent of the table.
-    if apart != REASONS.len() {
-        let _ = writeln!(wrong, "{apart} differ on their way, {} are listed with a reason", REASONS.len());
+    if unexplained != REASONS.len() {
+        let _ =
+            writeln!(wrong, "{unexplained} differ on their way, {} are listed with a reason", REASONS.len());
     }
     if contacts + differs != FORWARD.len() {
         let _ = writeln!(wrong, "{} forward passes differ, {} are listed", contacts + differs, FORWARD.len());

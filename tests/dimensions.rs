@@ -59,9 +59,9 @@ fn every_expression_has_a_dimension_or_is_unknown() {
             for stored in &measured.stores {
                 let a = stored.access;
                 let field = labspec_core::reflect::FieldId::new(a.field.0 as usize).unwrap().info().name;
-                let wanted = word(&names.measure(a.field, a.first, a.count));
+                let expected = word(&names.measure(a.field, a.first, a.count));
                 let what = word(&stored.measure);
-                writeln!(page, "  {label}: {field}[{}], {wanted}, is set to {what}", a.first).unwrap();
+                writeln!(page, "  {label}: {field}[{}], {expected}, is set to {what}", a.first).unwrap();
             }
             for (slot, measure) in &measured.variables {
                 let name = programs.globals.name(*slot);

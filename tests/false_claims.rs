@@ -236,7 +236,7 @@ fn variable(name: &str) -> Option<u64> {
 #[test]
 fn false_claims_are_never_verified() {
     let seed = variable("LABSPEC_SEED");
-    let wanted = variable("LABSPEC_FALSE_CLAIMS");
+    let requested = variable("LABSPEC_FALSE_CLAIMS");
     let begin = std::time::Instant::now();
     let mut all = Tally::default();
     let lessons = variable("LABSPEC_LESSONS").map_or(LESSONS, |n| n as usize);
@@ -244,11 +244,11 @@ fn false_claims_are_never_verified() {
     loop {
         all.add(tally(seed.unwrap_or(SEED), from, lessons));
         from += lessons;
-        if all.false_claims() as u64 >= wanted.unwrap_or(0) {
+        if all.false_claims() as u64 >= requested.unwrap_or(0) {
             break;
         }
     }
-    if wanted.is_some() || seed.is_some() {
+    if requested.is_some() || seed.is_some() {
         println!(
             "seed {seed:?}: {} lessons, {} false or empty claims, {:?}",
             all.lessons,

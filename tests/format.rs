@@ -13,7 +13,7 @@ use labspec::format::{format, modernized};
 use labspec::lint::ModelFolder;
 use labspec::lint::load_lesson;
 use labspec::source::SourceFile;
-use labspec::spec::{Form, Lesson};
+use labspec::spec::{CodeForm, Lesson};
 use labspec_core::reflect::{Elem, Kind};
 use labspec_core::{self as core, Data, Model, reflect};
 use labspec_expr::{Compiler, Context, Globals, Program, Type, Value};
@@ -108,13 +108,13 @@ fn random_world(model: &Model, seed: u64) -> World {
     world
 }
 
-fn compile(text: &str, form: Form, model: &Model, globals: &mut Globals) -> Program {
+fn compile(text: &str, form: CodeForm, model: &Model, globals: &mut Globals) -> Program {
     let names = ModelNames::new(model, Scope::Lab);
     let mut compiler = Compiler::new(&names, globals).with_value(Some(Type::Number));
     let compiled = match form {
-        Form::Expression => compiler.expression(text),
-        Form::Statements => compiler.statements(text),
-        Form::Target => compiler.assignment(text),
+        CodeForm::Expression => compiler.expression(text),
+        CodeForm::Statements => compiler.statements(text),
+        CodeForm::Target => compiler.assignment(text),
     };
     compiled.program.unwrap_or_else(|| panic!("{text}: {:#?}", compiled.diagnostics))
 }

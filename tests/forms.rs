@@ -363,12 +363,12 @@ fn github_shows_every_finding_at_its_place() {
         let rest = line.strip_prefix("::").unwrap();
         let (head, words) = rest.split_once("::").unwrap();
         let (name, properties) = head.split_once(' ').unwrap();
-        let wanted = match f["severity"].as_str().unwrap() {
+        let expected_name = match f["severity"].as_str().unwrap() {
             "error" => "error",
             "warning" => "warning",
             _ => "notice",
         };
-        assert_eq!(name, wanted);
+        assert_eq!(name, expected_name);
         let properties: BTreeMap<&str, String> = properties
             .split(',')
             .map(|pair| pair.split_once('=').map(|(key, value)| (key, plain(value, true))).unwrap())

@@ -127,7 +127,7 @@ fn ours(shared: &Path, recording: &Json, how: Reason) -> Json {
 }
 
 /// The largest difference of a column relative to its range; infinite if a value is NaN on only one side, or a string differs.
-fn apart(recording: &Json, column: usize, a: &Json, b: &Json) -> f64 {
+fn relative_difference(recording: &Json, column: usize, a: &Json, b: &Json) -> f64 {
     let (a, b) = (a["rows"].as_array().unwrap(), b["rows"].as_array().unwrap());
     if a.len() != b.len() {
         return f64::INFINITY;
@@ -166,13 +166,14 @@ fn labs_have_the_traces_of_the_page() {
         assert_eq!(found["columns"].as_array().unwrap(), columns, "{what}");
         let mut others = None;
         for (i, name) in columns.iter().enumerate() {
-            let theirs = apart(recording, i, &found, recording);
+            let theirs = relative_difference(recording, i, &found, recording);
             if theirs <= TRACE {
                 same = same.max(theirs);
                 continue;
             }
             let others = others.get_or_insert_with(|| OTHERWISE.map(|how| ours(&shared, recording, how)));
-            let [solved, perturbed @ ..] = others.each_ref().map(|other| apart(recording, i, &found, other));
+            let [solved, perturbed @ ..] =
+                others.each_ref().map(|other| relative_difference(recording, i, &found, other));
             let perturbed = perturbed.into_iter().fold(0.0, f64::max);
             let line = format!(
                 "{what} {name}: {theirs:.1e} of its range from theirs; from itself {perturbed:.1e} nudged, {solved:.1e} solved"

@@ -277,7 +277,7 @@ fn typing_a_lesson_ends_where_opening_it_does() {
 fn completions_know_the_language_the_model_and_the_format() {
     let folder = folder();
     let mut editor = Editor::open(folder.path());
-    for (inside, wanted, not) in [
+    for (inside, expected, not) in [
         ("\"setup\": \"data.joint('|')\"", "heavy_free", "heavy"),
         ("\"setup\": \"data.body(\\\"he|\\\")\"", "heavy", "heavy_free"),
         ("\"setup\": \"data.|\"", "qpos", "geom_size"),
@@ -298,16 +298,16 @@ fn completions_know_the_language_the_model_and_the_format() {
         let all = editor.at("completion", "c.md", &text, byte);
         let labels: Vec<&str> =
             all.as_array().unwrap().iter().map(|i| i["label"].as_str().unwrap()).collect();
-        assert!(labels.contains(&wanted) && !labels.contains(&not), "{inside}: {labels:?}");
+        assert!(labels.contains(&expected) && !labels.contains(&not), "{inside}: {labels:?}");
         // Applying the completion keeps the JSON valid.
-        let item = all.as_array().unwrap().iter().find(|i| i["label"] == wanted).unwrap();
+        let item = all.as_array().unwrap().iter().find(|i| i["label"] == expected).unwrap();
         if item.get("textEdit").is_some() {
             let new = edited(&text, &json!([item["textEdit"]]));
-            assert!(new.contains(wanted) && new.ends_with("}\n```\n"), "{new}");
+            assert!(new.contains(expected) && new.ends_with("}\n```\n"), "{new}");
         }
     }
     // Also in a claim in a comment.
-    for (inside, wanted, not) in [
+    for (inside, expected, not) in [
         ("{\"lab\": \"#1\", \"mea|\"}", "measure", "model"),
         ("{\"lab\": \"#1\", \"measure\": {\"top\": \"max(data.|)\"}}", "qpos", "geom_size"),
         ("{\"lab\": \"#1\", \"measure\": {\"top\": \"1\"}, \"says\": [[\"2\", \"|\"]]}", "top", "qpos"),
@@ -319,7 +319,7 @@ fn completions_know_the_language_the_model_and_the_format() {
         let all = editor.at("completion", "c.md", &text, byte);
         let labels: Vec<&str> =
             all.as_array().unwrap().iter().map(|i| i["label"].as_str().unwrap()).collect();
-        assert!(labels.contains(&wanted) && !labels.contains(&not), "{inside}: {labels:?}");
+        assert!(labels.contains(&expected) && !labels.contains(&not), "{inside}: {labels:?}");
     }
     // In a model, the schema and its own names are completed and explained.
     let (text, byte) = marked("<mujoco><worldbody><geom type='|'/></worldbody></mujoco>");

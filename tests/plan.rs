@@ -391,7 +391,7 @@ fn omitted_stages_are_not_computed() {
         ("stack", &["ncon"]),
         ("everything", &["qpos"]),
     ];
-    let mut left_out = 0;
+    let mut omitted = 0;
     for (name, reads) in fixed {
         let m = model(name);
         let plan = Plan::new(&m, &reading(reads));
@@ -401,7 +401,7 @@ fn omitted_stages_are_not_computed() {
             core::step(&m, &mut d).unwrap();
         }
         for decision in plan.decisions().iter().filter(|x| !x.keep) {
-            left_out += 1;
+            omitted += 1;
             assert!(!plan.keeps(decision.stage));
             for f in data_fields().into_iter().filter(|f| f.info().stage == decision.stage) {
                 // Without constraints, the acceleration is set although the solver does not run.
@@ -417,7 +417,7 @@ fn omitted_stages_are_not_computed() {
         }
     }
     // Free fall alone leaves out everything except the sum of forces.
-    assert!(left_out > 30, "{left_out}");
+    assert!(omitted > 30, "{omitted}");
 }
 
 #[test]

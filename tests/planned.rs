@@ -71,8 +71,8 @@ fn one(names: &ModelNames<'_>, path: &str, entry: &Entry, depth: usize, all: &mu
                 }
                 Param::Lazy => None,
             };
-            for left_out in 0..=info.optional {
-                let given = &info.params[..info.params.len() - left_out];
+            for omitted in 0..=info.optional {
+                let given = &info.params[..info.params.len() - omitted];
                 let objects = |param: &Param| match param {
                     Param::Object(id) => ["model", "data"]
                         .into_iter()

@@ -14,7 +14,7 @@ use labspec::source::SourceFile;
 use labspec::spec::Lab;
 use labspec_core::{Model, integrator};
 use labspec_numerics::precision::{
-    Kind, PrecisionOptions, PrecisionResults, PrecisionRow, RunStatus, Setting, compare,
+    AdviceKind, PrecisionOptions, PrecisionResults, PrecisionRow, RunStatus, Setting, compare,
 };
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -184,7 +184,7 @@ fn advice_holds_in_an_independent_run() {
     for (path, lab) in all {
         let name = path.file_stem().unwrap().to_str().unwrap().to_string();
         let report = lab.compare(&PrecisionOptions { until: Some(1.0), ..PrecisionOptions::default() });
-        if !report.advice.iter().any(|a| a.kind == Kind::Right) {
+        if !report.advice.iter().any(|a| a.kind == AdviceKind::Right) {
             continue;
         }
         // The recommended setting is the cheapest by run time, which on a busy machine may be any of the correct ones.

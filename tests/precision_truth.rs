@@ -13,7 +13,7 @@ use labspec::source::SourceFile;
 use labspec::spec::{Lab, Lesson};
 use labspec_core::{Model, integrator};
 use labspec_numerics::precision::{
-    Kind, PrecisionOptions, PrecisionResults, PrecisionRow, RunStatus, compare,
+    AdviceKind, PrecisionOptions, PrecisionResults, PrecisionRow, RunStatus, compare,
 };
 use labspec_numerics::stability;
 use serde_json::Value;
@@ -60,7 +60,7 @@ fn lab_row(report: &PrecisionResults) -> &PrecisionRow {
 }
 
 fn right(report: &PrecisionResults) -> &PrecisionRow {
-    let advice = report.advice.iter().find(|a| a.kind == Kind::Right).unwrap();
+    let advice = report.advice.iter().find(|a| a.kind == AdviceKind::Right).unwrap();
     &report.rows[advice.row]
 }
 

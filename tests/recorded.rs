@@ -229,11 +229,11 @@ fn forward(m: &Model, states: &Value) -> Verdict {
         let mut hold = |field: &str, ours: &[f64], theirs: &[f64]| {
             let scale = largest(theirs).max(1.0);
             let spread = row["spread"][field].as_str().and_then(|s| s.parse().ok()).unwrap_or(0.0);
-            let apart = note(&mut found, &place, field, ours, theirs, scale, f64::max(FORWARD, spread));
-            if apart > FORWARD && apart <= spread {
-                sensitive = sensitive.filter(|s| s.0 > apart).or(Some((apart, spread)));
+            let difference = note(&mut found, &place, field, ours, theirs, scale, f64::max(FORWARD, spread));
+            if difference > FORWARD && difference <= spread {
+                sensitive = sensitive.filter(|s| s.0 > difference).or(Some((difference, spread)));
             } else {
-                worst = worst.max(apart);
+                worst = worst.max(difference);
             }
         };
         for (field, values) in objects(&row["data"]).filter(|(name, _)| !MOMENTS.contains(&name.as_str())) {
@@ -253,7 +253,7 @@ fn forward(m: &Model, states: &Value) -> Verdict {
     let mut seen = std::collections::HashSet::new();
     found.retain(|d: &Difference| seen.insert(d.field.clone()));
     match sensitive {
-        Some((apart, spread)) if found.is_empty() => Verdict::Sensitive(apart, spread),
+        Some((difference, spread)) if found.is_empty() => Verdict::Sensitive(difference, spread),
         _ => Verdict::from_differences(found, worst),
     }
 }
@@ -364,22 +364,22 @@ pub(crate) fn trajectory(m: &Model, start: &Value, recording: &Value, tolerance:
         (0..every).for_each(|_| core::step(m, &mut d).unwrap());
         let place = format!("step {}", every * (k as u64 + 1));
         let mut found = Vec::new();
-        let mut apart: f64 = 0.0;
+        let mut difference: f64 = 0.0;
         for (field, values) in objects(row) {
             let id = named(Object::Data, field);
             let (ours, theirs) = (list(m, &d, id), numbers(values));
             let scale = largest(&theirs).max(1.0);
-            apart = apart.max(note(&mut found, &place, field, &ours, &theirs, scale, tolerance));
+            difference = difference.max(note(&mut found, &place, field, &ours, &theirs, scale, tolerance));
         }
         if !found.is_empty() {
             // Later differences follow from the first one.
-            return if apart <= SPREAD * spread[k] {
-                Verdict::Sensitive(apart, spread[k])
+            return if difference <= SPREAD * spread[k] {
+                Verdict::Sensitive(difference, spread[k])
             } else {
                 Verdict::Differs(found)
             };
         }
-        worst = worst.max(apart);
+        worst = worst.max(difference);
     }
     Verdict::from_differences(warnings(&d, &recording["warnings"]), worst)
 }

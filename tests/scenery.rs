@@ -72,10 +72,10 @@ fn follow(m: &mut Model, run: &Value) -> Vec<String> {
         for (field, values) in objects(row) {
             let (ours, theirs) = (list(m, &d, named(Object::Data, field)), numbers(values));
             let scale = theirs.iter().fold(1.0, |s: f64, x| s.max(x.abs()));
-            let (index, apart) = worst(&ours, &theirs, scale);
-            if apart > if field == "qfrc_constraint" { FORCE } else { RUN } {
+            let (index, difference) = worst(&ours, &theirs, scale);
+            if difference > if field == "qfrc_constraint" { FORCE } else { RUN } {
                 wrong.push(format!(
-                    "step {step}, {field}[{index}]: ours {}, theirs {} ({apart:.1e})",
+                    "step {step}, {field}[{index}]: ours {}, theirs {} ({difference:.1e})",
                     ours[index], theirs[index]
                 ));
             }

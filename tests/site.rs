@@ -7,7 +7,7 @@ use crate::program::{Done, run_in};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Files that stand for the scripts and styles of pages.
+/// Replacements of the scripts and styles of pages.
 const PAGE: [&str; 11] = [
     "site.js",
     "site.css",

@@ -44,8 +44,8 @@ fn differences(scene: &str, tolerance: f64) {
                 let ours = list(&m, &d, reflect::field(Object::Data, field).unwrap());
                 let theirs = numbers(values);
                 let scale = theirs.iter().fold(1.0, |s: f64, x| s.max(x.abs()));
-                let (i, apart) = worst(&ours, &theirs, scale);
-                if apart > tolerance {
+                let (i, difference) = worst(&ours, &theirs, scale);
+                if difference > tolerance {
                     wrong.push(format!(
                         "{name}, step {step}: {field}[{i}]: ours {:?}, theirs {:?}",
                         ours.get(i),

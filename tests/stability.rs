@@ -135,7 +135,7 @@ fn short(x: f64) -> String {
 }
 
 /// The largest difference of the coordinates at the end of two runs.
-fn apart(a: &Json, b: &Json) -> String {
+fn largest_difference(a: &Json, b: &Json) -> String {
     if a["warning"].is_string() || b["warning"].is_string() {
         let same = a["warning"].is_string() == b["warning"].is_string();
         return if same { "both say so".into() } else { "**one says so**".into() };
@@ -286,7 +286,7 @@ fn table(
             "| {title} | {} | {} | {} | {} |",
             describe(theirs),
             describe(&ours),
-            apart(theirs, &ours),
+            largest_difference(theirs, &ours),
             reported(&ours, bound)
         );
     }

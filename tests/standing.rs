@@ -66,10 +66,10 @@ impl ModelResults {
             let mut same = (0.0, "");
             for (name, outcome) in &self.0 {
                 match outcome.as_ref().map(|verdicts| &verdicts[i]) {
-                    Ok(Verdict::Same(apart)) if *apart >= same.0 => same = (*apart, name),
-                    Ok(Verdict::Sensitive(apart, spread)) => {
+                    Ok(Verdict::Same(difference)) if *difference >= same.0 => same = (*difference, name),
+                    Ok(Verdict::Sensitive(difference, spread)) => {
                         println!(
-                            "{aspect}, {name}: {apart:.1e} from the library, which is {spread:.1e} from itself"
+                            "{aspect}, {name}: {difference:.1e} from the library, which is {spread:.1e} from itself"
                         );
                     }
                     _ => {}

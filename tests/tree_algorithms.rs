@@ -43,8 +43,8 @@ fn difference(
     };
     let of = |((name, a), (_, b)): (Column, Column)| {
         let size = b.iter().fold(1.0_f64, |s, x| s.max(x.abs()));
-        let apart = a.iter().zip(&b).fold(0.0_f64, |s, (x, y)| s.max((x - y).abs()));
-        (if a.len() == b.len() { apart / size } else { f64::INFINITY }, name)
+        let error = a.iter().zip(&b).fold(0.0_f64, |s, (x, y)| s.max((x - y).abs()));
+        (if a.len() == b.len() { error / size } else { f64::INFINITY }, name)
     };
     run(algorithms)
         .into_iter()
@@ -70,9 +70,9 @@ fn every_algorithm_computes_the_zoo_as_the_general_one() {
         for algorithms in every() {
             let start =
                 |d: &mut Data<Planned>| core::state::copy(&m, &initial, d, core::state::INTEGRATION).unwrap();
-            let (apart, field) = difference(&m, start, algorithms);
-            if apart > 1e-9 {
-                wrong.push(format!("{name}, {algorithms:?}: {field} {apart:e}"));
+            let (error, field) = difference(&m, start, algorithms);
+            if error > 1e-9 {
+                wrong.push(format!("{name}, {algorithms:?}: {field} {error:e}"));
             }
         }
     }
@@ -98,8 +98,8 @@ proptest! {
             }
         };
         for algorithms in every() {
-            let (apart, field) = difference(&m, start, algorithms);
-            prop_assert!(apart < 1e-9, "{algorithms:?}: {field} {apart:e}\n{}", scene.smooth());
+            let (error, field) = difference(&m, start, algorithms);
+            prop_assert!(error < 1e-9, "{algorithms:?}: {field} {error:e}\n{}", scene.smooth());
         }
     }
 }

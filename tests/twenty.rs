@@ -178,10 +178,10 @@ fn run_check_and_stability_report_the_same() {
     let blocks = texts();
     let golden = read_json(&workspace().join("tests/golden/twenty.json"));
     // The first settings, the same number for each lab; the last one was found among 700: a control above 1e10.
-    let wanted = std::env::var("LABSPEC_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(40);
+    let requested = std::env::var("LABSPEC_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(40);
     let settings = golden["settings"].as_array().unwrap().iter().enumerate();
     let mut labs: Vec<Named> = settings
-        .filter(|(i, _)| *i < wanted || *i == 545)
+        .filter(|(i, _)| *i < requested || *i == 545)
         .map(|(i, s)| {
             (format!("setting-{i}"), set(&blocks[s["lab"].as_u64().unwrap() as usize], &s["set"]), None)
         })

@@ -182,7 +182,7 @@ const UNITS: &[&str] = &[
 ];
 
 /// Numbers whose unit `{O}` is not next to them, or is after a word.
-const APART: &[&str] = &[
+const SEPARATE_UNIT: &[&str] = &[
     "In {O}: {T}",
     "x / {O} = {T}",
     "x/{O} = {T}",
@@ -349,7 +349,7 @@ pub(super) fn wrong(random: &mut Random, measured: &[MeasuredNumber]) -> Vec<Cla
     }
     if !unit.is_empty() && !n.minus {
         let others: Vec<&str> = other_units(unit).iter().copied().filter(|o| o.len() > 1).collect();
-        for template in [random.pick::<&str>(APART), random.pick::<&str>(APART)] {
+        for template in [random.pick::<&str>(SEPARATE_UNIT), random.pick::<&str>(SEPARATE_UNIT)] {
             let text = fill(template).replace("{O}", random.pick::<&str>(&others));
             all.push(says("a unit apart", Truth::False, size, &k.name, format!("It is {text} here.")));
         }

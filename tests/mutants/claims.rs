@@ -1,8 +1,8 @@
 //! Which mistakes in a lab or a quiz can be detected without a claim, and which need a claim of the author.
 //!
-//! A mistake can be detected without a claim if no author could reasonably have intended the resulting lab. It needs a claim if
-//! the result is a correct lab that somebody could have written on purpose. For kinds that contain both, a predicate decides by
-//! the content of the lesson. It does not depend on whether the mistake was found.
+//! A mistake can be detected without a claim if no author could reasonably have intended the resulting lab. It needs a claim if the
+//! result is a correct lab that an author could have written on purpose. For kinds that contain both, a predicate decides by the
+//! content of the lesson. It does not depend on whether the mistake was found.
 
 use super::material::{Piece, PieceKind};
 use super::student_view;

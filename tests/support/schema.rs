@@ -40,50 +40,50 @@ impl<'s> SchemaCheck<'s> {
             }
             return evaluated;
         };
-        for (keyword, want) in keywords {
+        for (keyword, constraint) in keywords {
             let holds = match keyword.as_str() {
                 "$schema" | "title" | "description" | "$defs" | "default" | "examples" => true,
                 // Evaluated with `if`.
                 "then" | "else" => true,
                 // Evaluated after all other keywords.
                 "unevaluatedProperties" => true,
-                "const" => value == want,
-                "enum" => list(want).contains(value),
-                "type" => match want {
+                "const" => value == constraint,
+                "enum" => list(constraint).contains(value),
+                "type" => match constraint {
                     Value::Array(any) => any.iter().any(|name| is(value, name)),
                     name => is(value, name),
                 },
-                "minimum" => value.as_f64().is_none_or(|x| x >= want.as_f64().unwrap()),
-                "maximum" => value.as_f64().is_none_or(|x| x <= want.as_f64().unwrap()),
-                "exclusiveMinimum" => value.as_f64().is_none_or(|x| x > want.as_f64().unwrap()),
-                "minItems" => value.as_array().is_none_or(|l| l.len() as u64 >= want.as_u64().unwrap()),
-                "maxItems" => value.as_array().is_none_or(|l| l.len() as u64 <= want.as_u64().unwrap()),
+                "minimum" => value.as_f64().is_none_or(|x| x >= constraint.as_f64().unwrap()),
+                "maximum" => value.as_f64().is_none_or(|x| x <= constraint.as_f64().unwrap()),
+                "exclusiveMinimum" => value.as_f64().is_none_or(|x| x > constraint.as_f64().unwrap()),
+                "minItems" => value.as_array().is_none_or(|l| l.len() as u64 >= constraint.as_u64().unwrap()),
+                "maxItems" => value.as_array().is_none_or(|l| l.len() as u64 <= constraint.as_u64().unwrap()),
                 "required" => value
                     .as_object()
-                    .is_none_or(|o| list(want).iter().all(|key| o.contains_key(key.as_str().unwrap()))),
+                    .is_none_or(|o| list(constraint).iter().all(|key| o.contains_key(key.as_str().unwrap()))),
                 "$ref" => {
-                    let (file, schema) = self.follow(file, want.as_str().unwrap());
+                    let (file, schema) = self.follow(file, constraint.as_str().unwrap());
                     evaluated.extend(self.check(&file, schema, value, at));
                     true
                 }
                 "allOf" => {
-                    list(want).iter().for_each(|s| evaluated.extend(self.check(file, s, value, at)));
+                    list(constraint).iter().for_each(|s| evaluated.extend(self.check(file, s, value, at)));
                     true
                 }
                 "anyOf" => {
-                    evaluated.extend(self.any_of(file, list(want), value, at));
+                    evaluated.extend(self.any_of(file, list(constraint), value, at));
                     true
                 }
                 "oneOf" => {
                     let holding: Vec<EvaluatedKeys> =
-                        list(want).iter().filter_map(|s| self.holds(file, s, value)).collect();
+                        list(constraint).iter().filter_map(|s| self.holds(file, s, value)).collect();
                     let one = holding.len() == 1;
                     evaluated.extend(holding.into_iter().flatten());
                     one
                 }
-                "not" => self.holds(file, want, value).is_none(),
+                "not" => self.holds(file, constraint, value).is_none(),
                 "if" => {
-                    let holding = self.holds(file, want, value);
+                    let holding = self.holds(file, constraint, value);
                     let next = if holding.is_some() { "then" } else { "else" };
                     evaluated.extend(holding.into_iter().flatten());
                     if let Some(schema) = keywords.get(next) {
@@ -92,7 +92,7 @@ impl<'s> SchemaCheck<'s> {
                     true
                 }
                 "properties" => {
-                    for (key, schema) in want.as_object().unwrap() {
+                    for (key, schema) in constraint.as_object().unwrap() {
                         if let Some(inside) = value.get(key) {
                             self.check(file, schema, inside, &format!("{at}/{key}"));
                             evaluated.insert(key.clone());
@@ -104,7 +104,7 @@ impl<'s> SchemaCheck<'s> {
                     let declared = keywords.get("properties").and_then(Value::as_object);
                     for (key, inside) in value.as_object().into_iter().flatten() {
                         if declared.is_none_or(|declared| !declared.contains_key(key)) {
-                            self.check(file, want, inside, &format!("{at}/{key}"));
+                            self.check(file, constraint, inside, &format!("{at}/{key}"));
                             evaluated.insert(key.clone());
                         }
                     }
@@ -112,14 +112,14 @@ impl<'s> SchemaCheck<'s> {
                 }
                 "prefixItems" => {
                     let items = value.as_array().into_iter().flatten().enumerate();
-                    for ((i, inside), schema) in items.zip(list(want)) {
+                    for ((i, inside), schema) in items.zip(list(constraint)) {
                         self.check(file, schema, inside, &format!("{at}/{i}"));
                     }
                     true
                 }
                 "items" => {
                     for (i, inside) in value.as_array().into_iter().flatten().enumerate() {
-                        self.check(file, want, inside, &format!("{at}/{i}"));
+                        self.check(file, constraint, inside, &format!("{at}/{i}"));
                     }
                     true
                 }
@@ -127,7 +127,7 @@ impl<'s> SchemaCheck<'s> {
             };
             if !holds {
                 let value: String = value.to_string().chars().take(200).collect();
-                self.problems.push(format!("{at}: `{keyword}: {want}` does not hold for {value}"));
+                self.problems.push(format!("{at}: `{keyword}: {constraint}` does not hold for {value}"));
             }
         }
         if let Some(schema) = keywords.get("unevaluatedProperties") {

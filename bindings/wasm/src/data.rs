@@ -107,7 +107,7 @@ impl RawData {
         Ok(RawData { world, poses: Vec::new(), before: vec![0.0; size] })
     }
 
-    /// Makes so many steps, with at most so much work.
+    /// Makes at most this many steps, within this work budget.
     pub fn step(&mut self, model: &mut RawModel, steps: usize, work: Option<f64>) -> Result<(), JsValue> {
         if steps > MAX_STEPS {
             return Err(call_error(
@@ -250,7 +250,7 @@ impl RawData {
         let (m, d) = (&model.model, self.data());
         let at = || match *point {
             [x, y, z] => Ok([x, y, z]),
-            _ => Err(Error::Length { what: "the point", wanted: 3, found: point.len() }),
+            _ => Err(Error::Length { what: "the point", expected: 3, found: point.len() }),
         };
         let found = match of {
             "point" => at().and_then(|point| core::jac(m, d, point, id)),

@@ -23,9 +23,9 @@ impl Watched {
 
     /// Whether the pairs of geoms in contact have changed.
     pub(crate) fn touches_otherwise(&mut self, fields: &Fields) -> bool {
-        let now = touching_pairs(fields);
-        let other = now != self.touching;
-        self.touching = now;
+        let current = touching_pairs(fields);
+        let other = current != self.touching;
+        self.touching = current;
         other
     }
 
@@ -34,7 +34,7 @@ impl Watched {
         self.before = self.time;
         let counted = if fields.time < self.time { [0; Warning::COUNT] } else { self.warnings };
         self.start(fields);
-        self.warnings.iter().zip(&counted).any(|(now, before)| now > before)
+        self.warnings.iter().zip(&counted).any(|(current, before)| current > before)
     }
 }
 

@@ -267,9 +267,10 @@ impl Lab {
             [at, level] => numbers(*at as usize) > *level,
             _ => false,
         };
-        let now = self.player.numbers();
-        before
-            .extend(levels.chunks(2).map(|pair| over(&|at| now.get(at).copied().unwrap_or(f64::NAN), pair)));
+        let current = self.player.numbers();
+        before.extend(
+            levels.chunks(2).map(|pair| over(&|at| current.get(at).copied().unwrap_or(f64::NAN), pair)),
+        );
         let watched = &mut self.watched;
         watched.start(self.player.data().fields());
         let done = self.player.play_while(time, most, |data, cells| {

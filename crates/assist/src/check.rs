@@ -117,13 +117,14 @@ fn within(span: &Range<usize>, unit: &Range<usize>) -> bool {
 /// Binds one block as if only the blocks that it names existed. Spans count from the start of the block.
 fn check_block(lesson: &Lesson, unit: &Range<usize>, models: &Models) -> Vec<Finding> {
     let named: Vec<&VerifyLab> = named_by(lesson, unit).collect();
-    let wanted: Vec<&Lab> = named.iter().filter_map(|named| lesson.named(named)).collect();
+    let referenced: Vec<&Lab> = named.iter().filter_map(|named| lesson.named(named)).collect();
     let elsewhere = |other: &&Other| {
         let here =
             |named: &&VerifyLab| matches!(named, VerifyLab::Elsewhere(text, ..) if text.span() == other.span);
         named.iter().any(here)
     };
-    let needed = |span: &Range<usize>| within(span, unit) || wanted.iter().any(|lab| within(&lab.span, span));
+    let needed =
+        |span: &Range<usize>| within(span, unit) || referenced.iter().any(|lab| within(&lab.span, span));
     let entry = |entry: &LabEntry| LabEntry {
         lab: entry.lab.clone().filter(|_| needed(&entry.span)),
         ..entry.clone()
@@ -213,7 +214,7 @@ It comes late.
         let read = |name: &str| std::fs::read_to_string(specs.join("lessons").join(name)).unwrap();
         let lessons =
             ["01-what-a-step-computes.md", "02-bounce-and-swing.md"].map(|name| (name, read(name), 7));
-        for (name, text, apart) in lessons.into_iter().chain([("naming.md", NAMING.to_string(), 1)]) {
+        for (name, text, stride) in lessons.into_iter().chain([("naming.md", NAMING.to_string(), 1)]) {
             let path = specs.join("lessons").join(name);
             let mut document = Document::new(path.clone(), &text);
             let typed =
@@ -221,7 +222,7 @@ It comes late.
             for (at, what) in
                 typed.into_iter().chain([("far", "fra"), ("low", "lwo"), ("#1", "#2"), ("late", "lat")])
             {
-                for (place, _) in text.match_indices(at).step_by(apart) {
+                for (place, _) in text.match_indices(at).step_by(stride) {
                     let mut changed = text.clone();
                     changed.replace_range(place..place + at.len(), what);
                     document.set_text(changed);

@@ -2,7 +2,7 @@
 
 use labspec::bind::{ModelNames, Scope};
 use labspec::source::Text;
-use labspec::spec::{Form, Lab, Lesson, Run, Verify};
+use labspec::spec::{CodeForm, Lab, Lesson, Run, Verify};
 use labspec_core::Model;
 use labspec_expr::{Compiled, Compiler, Globals, Type};
 
@@ -10,7 +10,7 @@ use labspec_expr::{Compiled, Compiler, Globals, Type};
 #[derive(Clone, Copy, Debug)]
 pub struct CodeText<'l> {
     /// How it is written.
-    pub form: Form,
+    pub form: CodeForm,
     /// Which functions exist.
     pub scope: Scope,
     /// The text, with its place in the lesson.
@@ -45,8 +45,8 @@ pub fn code_texts(lesson: &Lesson) -> Vec<CodeText<'_>> {
 fn add_claim<'l>(lesson: &'l Lesson, verify: &'l Verify, lab: Option<&'l Lab>, all: &mut Vec<CodeText<'l>>) {
     let whole = lesson.whole(verify);
     let base = whole.lab.as_ref().map_or(lab, |named| lesson.named(named));
-    let scope = |form| if form == Form::Statements { Scope::Lab } else { Scope::Measure };
-    let mut add = |texts: Vec<(Form, &'l Text)>, lab: Option<&'l Lab>| {
+    let scope = |form| if form == CodeForm::Statements { Scope::Lab } else { Scope::Measure };
+    let mut add = |texts: Vec<(CodeForm, &'l Text)>, lab: Option<&'l Lab>| {
         let Some(lab) = lab else { return };
         let piece = |(form, text)| CodeText { form, scope: scope(form), text, lab, verify: Some(whole) };
         all.extend(texts.into_iter().map(piece));
@@ -88,8 +88,8 @@ pub fn explained(piece: &CodeText<'_>, model: &Model, globals: &mut Globals) -> 
     let names = ModelNames::new(model, piece.scope).showing(&readouts);
     let mut compiler = Compiler::new(&names, globals).with_value(Some(Type::Any)).explaining();
     match piece.form {
-        Form::Expression => compiler.expression(&piece.text.value),
-        Form::Statements => compiler.statements(&piece.text.value),
-        Form::Target => compiler.assignment(&piece.text.value),
+        CodeForm::Expression => compiler.expression(&piece.text.value),
+        CodeForm::Statements => compiler.statements(&piece.text.value),
+        CodeForm::Target => compiler.assignment(&piece.text.value),
     }
 }

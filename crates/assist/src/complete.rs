@@ -127,7 +127,7 @@ fn add_measures(verify: &Verify, piece: &code::CodeText<'_>, inside: usize, item
     items.extend(verify.runs.iter().map(|run| named(&run.name.value, "a run")));
 }
 
-/// The part of a name before an offset; `None` behind a dot, where members are written.
+/// The part of a name before an offset; `None` after a dot, where members are written.
 fn word_before(text: &str, inside: usize) -> Option<Range<usize>> {
     let before = text.get(..inside)?;
     let start = before.trim_end_matches(|c: char| c.is_alphanumeric() || matches!(c, '_' | '$')).len();

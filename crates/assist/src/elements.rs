@@ -2,7 +2,7 @@
 //! while an author types. The MJCF schema determines which attributes contain names.
 
 use super::tag::{Attribute, Markup, OpenElements, Tags};
-use labspec_core::xml::{Kind, schema_rows};
+use labspec_core::xml::{AttributeType, schema_rows};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::LazyLock;
@@ -36,13 +36,13 @@ pub struct ElementNames {
 const COMPOSING: [&str; 5] = ["include", "attach", "replicate", "composite", "flexcomp"];
 
 /// The kinds of attributes, by section, element and attribute.
-static SCHEMA: LazyLock<BTreeMap<String, Kind>> = LazyLock::new(|| {
+static SCHEMA: LazyLock<BTreeMap<String, AttributeType>> = LazyLock::new(|| {
     let mut all = BTreeMap::new();
     for row in schema_rows() {
         let (Some(attribute), mut parts) = (row.attribute, row.path.split('/').skip(1)) else { continue };
         let section = parts.next().unwrap_or("").to_string();
         let element = row.path.rsplit('/').next().unwrap_or("").to_string();
-        if matches!(attribute.kind, Kind::Name(_) | Kind::Ref(_) | Kind::Text) {
+        if matches!(attribute.kind, AttributeType::Name(_) | AttributeType::Ref(_) | AttributeType::Text) {
             all.insert(format!("{section}/{element}/{}", attribute.name), attribute.kind);
         }
     }
@@ -53,7 +53,7 @@ static SCHEMA: LazyLock<BTreeMap<String, Kind>> = LazyLock::new(|| {
 pub(crate) fn noun_of(word: &str) -> Option<&'static str> {
     let word = if word == "xbody" { "body" } else { word };
     SCHEMA.values().find_map(|kind| match kind {
-        Kind::Name(noun) if *noun == word => Some(*noun),
+        AttributeType::Name(noun) if *noun == word => Some(*noun),
         _ => None,
     })
 }
@@ -82,9 +82,9 @@ fn element(xml: &str, section: &str, name: &str, attributes: &[Attribute<'_>], f
     let value = |span: &Range<usize>| xml.get(span.clone()).unwrap_or("");
     for (attribute, span) in attributes {
         let (noun, defines) = match SCHEMA.get(&format!("{section}/{name}/{attribute}")) {
-            Some(Kind::Name(noun)) => (*noun, true),
-            Some(Kind::Ref(noun)) => (*noun, false),
-            Some(Kind::Text) => {
+            Some(AttributeType::Name(noun)) => (*noun, true),
+            Some(AttributeType::Ref(noun)) => (*noun, false),
+            Some(AttributeType::Text) => {
                 // An adjacent attribute gives the kind of object to which `objname` and `refname` refer.
                 let kind_attribute =
                     attribute.strip_suffix("name").map(|beginning| format!("{beginning}type"));

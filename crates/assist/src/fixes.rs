@@ -55,12 +55,12 @@ pub fn fix_all(document: &Document, lesson: &Lesson, models: &Models) -> Option<
     };
     let old = lesson.file.text();
     // Findings that require runs of the labs are not computed again.
-    let now = CheckedText {
+    let current = CheckedText {
         text: old.to_string(),
         findings: check_text(old).findings,
         broken: lesson.broken.len(),
     };
-    let (new, made) = repair_text(now, false, &check_text, &|text| traces(&load(text), models));
+    let (new, made) = repair_text(current, false, &check_text, &|text| traces(&load(text), models));
     if made == 0 {
         return None;
     }

@@ -80,7 +80,7 @@ pub struct Hover {
     pub text: String,
 }
 
-/// What a fix is worth.
+/// The applicability of a fix.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FixKind {
     /// It preserves the meaning, or is the only correction.
@@ -107,7 +107,7 @@ impl FixKind {
 pub struct TextFix {
     /// What it does, for a menu.
     pub title: String,
-    /// What it is worth.
+    /// Its applicability.
     pub kind: FixKind,
     /// The edit.
     pub edit: Edit,

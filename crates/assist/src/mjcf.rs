@@ -3,7 +3,7 @@
 use super::elements::{element_names, noun_of};
 use super::item::{Completion, CompletionKind, Edit, Hover};
 use super::tag::{Markup, OpenElements, Tag, Tags, word};
-use labspec_core::xml::{Attr, Element, Kind, Status, schema_root};
+use labspec_core::xml::{Attr, AttributeType, Element, Status, schema_root};
 use std::ops::Range;
 
 /// What is at a byte of a model.
@@ -108,7 +108,7 @@ fn spot_in<'x>(xml: &'x str, tag: Tag<'x>, byte: usize) -> Spot<'x> {
     let before = xml.get(tag.start..byte).unwrap_or("");
     let is_name = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-' | ':' | '.');
     let start = tag.start + before.trim_end_matches(is_name).len();
-    // An attribute starts behind a blank.
+    // An attribute starts after a blank.
     if tag.is_end || !xml.get(..start).is_some_and(|text| text.ends_with(char::is_whitespace)) {
         return Spot::Nothing;
     }
@@ -160,7 +160,8 @@ fn at(c: Completion, span: &Range<usize>) -> Completion {
     Completion { edit: Edit { span: span.clone(), ..c.edit }, ..c }
 }
 
-/// The elements that can be inside of the open ones. `is_tag`: behind a `<`, where the end of the parent fits as well.
+/// The elements that can be inside of the open ones. `is_tag`: after a `<`, where the closing tag of the parent is possible as
+/// well.
 fn children(open: &[&str], span: &Range<usize>, before: &str, is_tag: bool) -> Vec<Completion> {
     let root = [schema_root()];
     let parent = element_at(open);
@@ -216,17 +217,19 @@ fn values(xml: &str, open: &[&str], tag: &Tag<'_>, name: &str, span: &Range<usiz
         names
     };
     let (names, kind, detail) = match attribute.kind {
-        Kind::Keywords(words) => {
+        AttributeType::Keywords(words) => {
             let supported = words.iter().filter(|w| w.supported).map(|w| w.text.to_string());
             (supported.collect(), CompletionKind::Value, format!("a value of `{name}`"))
         }
-        Kind::Ref(noun) => (of_noun(noun), CompletionKind::Name, format!("a {noun} of this model")),
-        Kind::Class => (classes(xml), CompletionKind::Name, "a default class of this model".to_string()),
-        Kind::Text => match named_kind(xml, tag, name) {
+        AttributeType::Ref(noun) => (of_noun(noun), CompletionKind::Name, format!("a {noun} of this model")),
+        AttributeType::Class => {
+            (classes(xml), CompletionKind::Name, "a default class of this model".to_string())
+        }
+        AttributeType::Text => match named_kind(xml, tag, name) {
             Some(noun) => (of_noun(noun), CompletionKind::Name, format!("a {noun} of this model")),
             None => return Vec::new(),
         },
-        Kind::Reals(..) | Kind::Ints(..) | Kind::Name(_) => return Vec::new(),
+        AttributeType::Reals(..) | AttributeType::Ints(..) | AttributeType::Name(_) => return Vec::new(),
     };
     names.iter().map(|n| at(completion(n, kind, &detail), span)).collect()
 }

@@ -94,7 +94,7 @@ impl<'x> OpenElements<'x> {
         &self.0
     }
 
-    /// Continues behind a tag.
+    /// Continues after a tag.
     pub(crate) fn pass(&mut self, tag: &Tag<'x>) {
         if tag.is_end {
             // An element that was not closed ends with its parent.

@@ -18,7 +18,7 @@ pub(super) fn row(m: &Model, f: FieldId, kind: Obj, index: usize) -> Option<(usi
 /// The first row and the number of rows of one object along a dimension.
 fn span(m: &Model, kind: Obj, dim: FieldId, index: usize) -> Option<(usize, usize)> {
     let at = |v: &[i32]| v.get(index).and_then(|&x| usize::try_from(x).ok());
-    let one = |wanted: FieldId| (dim == wanted).then_some((index, 1));
+    let one = |field: FieldId| (dim == field).then_some((index, 1));
     match (kind, dim) {
         (Obj::Joint, model::nq) => Some((at(&m.jnt_qposadr)?, joint::nq(*m.jnt_type.get(index)?))),
         (Obj::Joint, model::nv) => Some((at(&m.jnt_dofadr)?, joint::nv(*m.jnt_type.get(index)?))),

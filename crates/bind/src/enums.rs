@@ -1,4 +1,4 @@
-//! Enumerations of MuJoCo 3.14.0, as `record/enums.py` finds them in the library. Not written by hand.
+//! Enumerations of MuJoCo 3.14.0, generated from the library by `record/enums.py`. Do not edit.
 
 /// Name, and its members with their numbers.
 pub(super) const ENUMS: &[(&str, &[(&str, i64)])] = &[

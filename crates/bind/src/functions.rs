@@ -10,7 +10,7 @@ mod sim;
 use std::sync::LazyLock;
 
 use super::displayed::LABELS;
-use super::handle::{self, Side};
+use super::handle::{self, FieldOwner};
 use super::units;
 use labspec_core::Obj;
 use labspec_core::reflect::{self, FieldId, Kind, Object, Stage, data, option};
@@ -157,10 +157,10 @@ fn key_of(i: usize) -> (&'static str, &'static str) {
 
 /// The functions of an object (empty for global functions) that have a name, with their indexes in [`TABLE`].
 pub(super) fn named(object: &str, name: &str) -> impl Iterator<Item = (usize, &'static Function)> {
-    let wanted = (object, name);
-    let first = BY_NAME.partition_point(|&i| key_of(i) < wanted);
+    let key = (object, name);
+    let first = BY_NAME.partition_point(|&i| key_of(i) < key);
     let from_here = BY_NAME.get(first..).unwrap_or_default().iter();
-    from_here.take_while(move |&&i| key_of(i) == wanted).filter_map(|&i| Some((i, *TABLE.get(i)?)))
+    from_here.take_while(move |&&i| key_of(i) == key).filter_map(|&i| Some((i, *TABLE.get(i)?)))
 }
 
 /// The result of a function that returns nothing.
@@ -205,7 +205,7 @@ fn info(f: &Function) -> FunctionInfo {
         Arg::Text => Param::Text,
         Arg::Numbers => Param::Numbers,
         Arg::Any => Param::Any,
-        Arg::Name(kind) => Param::Name(handle::collection(Side::Data, *kind)),
+        Arg::Name(kind) => Param::Name(handle::collection(FieldOwner::Data, *kind)),
         Arg::Label => Param::Name(LABELS),
         Arg::Lazy => Param::Lazy,
     };

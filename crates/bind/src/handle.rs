@@ -6,7 +6,7 @@ use labspec_expr::{CollectionId, ObjectId};
 
 /// `model` or `data`: which fields a named object has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Side {
+pub(super) enum FieldOwner {
     Model,
     Data,
 }
@@ -23,7 +23,7 @@ pub(super) enum HandleTarget {
     /// `mj.mjtObj.mjOBJ_BODY`: the indexes of an enumeration and its member.
     Member(usize, usize),
     /// `data.joint("hinge")`: one object of the model.
-    Named(Side, Obj, usize),
+    Named(FieldOwner, Obj, usize),
 }
 
 /// The kinds of named objects, and their nouns in the language.
@@ -87,7 +87,7 @@ pub(super) fn encode(target: HandleTarget) -> ObjectId {
         HandleTarget::Member(i, j) => MEMBERS + ((i as u32) << 8) + j as u32,
         HandleTarget::Named(side, kind, index) => {
             let kind = KINDS.iter().position(|&(k, _)| k == kind).unwrap_or(0) as u32;
-            let side = if side == Side::Data { DATA_SIDE } else { 0 };
+            let side = if side == FieldOwner::Data { DATA_SIDE } else { 0 };
             NAMED | side | kind << 24 | (index as u32 & INDEX)
         }
     })
@@ -96,7 +96,7 @@ pub(super) fn encode(target: HandleTarget) -> ObjectId {
 /// Returns the object of an id, or `None` if no object has the id.
 pub(super) fn decode(ObjectId(id): ObjectId) -> Option<HandleTarget> {
     if id & NAMED != 0 {
-        let side = if id & DATA_SIDE != 0 { Side::Data } else { Side::Model };
+        let side = if id & DATA_SIDE != 0 { FieldOwner::Data } else { FieldOwner::Model };
         let (kind, _) = *KINDS.get((id >> 24 & 0x3f) as usize)?;
         return Some(HandleTarget::Named(side, kind, (id & INDEX) as usize));
     }
@@ -118,15 +118,15 @@ pub(super) fn index_of(number: f64) -> usize {
 }
 
 /// Returns the collection of all objects of a kind.
-pub(super) fn collection(side: Side, kind: Obj) -> CollectionId {
+pub(super) fn collection(side: FieldOwner, kind: Obj) -> CollectionId {
     let kind = KINDS.iter().position(|&(k, _)| k == kind).unwrap_or(0) as u32;
-    CollectionId(kind << 1 | u32::from(side == Side::Data))
+    CollectionId(kind << 1 | u32::from(side == FieldOwner::Data))
 }
 
 /// Returns the side, the kind and the noun of a collection.
-pub(super) fn of_collection(CollectionId(id): CollectionId) -> Option<(Side, Obj, &'static str)> {
+pub(super) fn of_collection(CollectionId(id): CollectionId) -> Option<(FieldOwner, Obj, &'static str)> {
     let (kind, noun) = *KINDS.get((id >> 1) as usize)?;
-    Some((if id & 1 == 1 { Side::Data } else { Side::Model }, kind, noun))
+    Some((if id & 1 == 1 { FieldOwner::Data } else { FieldOwner::Model }, kind, noun))
 }
 
 #[cfg(test)]
@@ -136,7 +136,7 @@ mod tests {
     #[test]
     fn ids_decode_to_what_was_encoded() {
         for (i, &(kind, _)) in KINDS.iter().enumerate() {
-            for side in [Side::Model, Side::Data] {
+            for side in [FieldOwner::Model, FieldOwner::Data] {
                 let target = HandleTarget::Named(side, kind, 1000 * i + 7);
                 assert_eq!(decode(encode(target)), Some(target));
                 assert_eq!(index_of(f64::from(encode(target).0)), 1000 * i + 7);

@@ -13,7 +13,7 @@ const MAX_ELEMENTS: usize = 4096;
 
 /// Whether a motion is a translation or a rotation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Motion {
+enum MotionKind {
     Along,
     Turning,
     /// A component of a quaternion, which has no dimension itself.
@@ -72,9 +72,9 @@ fn element(m: &Model, f: FieldId, shape: &[Option<usize>], at: usize) -> Measure
         _ => None,
     };
     match motion {
-        Some(Motion::Along) => read(along),
-        Some(Motion::Turning) => read(turning),
-        Some(Motion::Number) => Measure::Known(Dimension::NUMBER),
+        Some(MotionKind::Along) => read(along),
+        Some(MotionKind::Turning) => read(turning),
+        Some(MotionKind::Number) => Measure::Known(Dimension::NUMBER),
         None => Measure::Unknown,
     }
 }
@@ -99,28 +99,28 @@ fn part(unit: &str, at: usize, width: usize) -> Option<&str> {
 }
 
 /// The motion of the joint to which an element belongs.
-fn joint_motion(m: &Model, f: FieldId, dim: FieldId, at: usize) -> Option<Motion> {
+fn joint_motion(m: &Model, f: FieldId, dim: FieldId, at: usize) -> Option<MotionKind> {
     let (Obj::Joint, object) = elements::owner(m, f, at)? else { return None };
     let (first, _) = elements::row(m, f, Obj::Joint, object)?;
     motion(*m.jnt_type.get(object)?, at - first, dim)
 }
 
 /// The motion of a coordinate of a joint.
-fn motion(ty: i32, at: usize, dim: FieldId) -> Option<Motion> {
+fn motion(ty: i32, at: usize, dim: FieldId) -> Option<MotionKind> {
     Some(match (ty, dim) {
-        (joint::SLIDE, _) => Motion::Along,
-        (joint::HINGE, _) => Motion::Turning,
+        (joint::SLIDE, _) => MotionKind::Along,
+        (joint::HINGE, _) => MotionKind::Turning,
         // The limits of a ball joint apply to its angle.
-        (joint::BALL, model::njnt) => Motion::Turning,
-        (joint::FREE, model::nq | model::nv) if at < 3 => Motion::Along,
-        (joint::FREE | joint::BALL, model::nq) => Motion::Number,
-        (joint::FREE | joint::BALL, model::nv) => Motion::Turning,
+        (joint::BALL, model::njnt) => MotionKind::Turning,
+        (joint::FREE, model::nq | model::nv) if at < 3 => MotionKind::Along,
+        (joint::FREE | joint::BALL, model::nq) => MotionKind::Number,
+        (joint::FREE | joint::BALL, model::nv) => MotionKind::Turning,
         _ => return None,
     })
 }
 
 /// The motion of a coordinate in a keyframe.
-fn row_motion(m: &Model, f: FieldId, at: usize) -> Option<Motion> {
+fn row_motion(m: &Model, f: FieldId, at: usize) -> Option<MotionKind> {
     let (starts, dim) = match f {
         model::key_qpos => (&m.jnt_qposadr, model::nq),
         model::key_qvel => (&m.jnt_dofadr, model::nv),
@@ -131,34 +131,34 @@ fn row_motion(m: &Model, f: FieldId, at: usize) -> Option<Motion> {
 }
 
 /// The motion that an actuator causes, if its gear does not change units.
-fn actuator_motion(m: &Model, actuator: usize) -> Option<Motion> {
+fn actuator_motion(m: &Model, actuator: usize) -> Option<MotionKind> {
     let out = usize::try_from(*m.actuator_outadr.get(actuator)?).ok()?;
     let gear = m.actuator_gear.get(6 * out..6 * out + 6)?;
-    let of = usize::try_from(*m.actuator_trnid.get(2 * actuator)?).ok();
+    let target = usize::try_from(*m.actuator_trnid.get(2 * actuator)?).ok();
     match *m.actuator_trntype.get(actuator)? {
         trntype::JOINT | trntype::JOINTINPARENT if gear.first()?.abs() == 1.0 => {
-            match *m.jnt_type.get(of?)? {
-                joint::SLIDE => Some(Motion::Along),
-                joint::HINGE => Some(Motion::Turning),
+            match *m.jnt_type.get(target?)? {
+                joint::SLIDE => Some(MotionKind::Along),
+                joint::HINGE => Some(MotionKind::Turning),
                 _ => None,
             }
         }
-        trntype::TENDON if gear.first()?.abs() == 1.0 => tendon_motion(m, of?),
-        trntype::SLIDERCRANK => Some(Motion::Along),
+        trntype::TENDON if gear.first()?.abs() == 1.0 => tendon_motion(m, target?),
+        trntype::SLIDERCRANK => Some(MotionKind::Along),
         _ => None,
     }
 }
 
 /// The motion of a tendon: a spatial tendon has a length; a fixed tendon has one if all its coordinates are lengths.
-fn tendon_motion(m: &Model, tendon: usize) -> Option<Motion> {
+fn tendon_motion(m: &Model, tendon: usize) -> Option<MotionKind> {
     let first = usize::try_from(*m.tendon_adr.get(tendon)?).ok()?;
     let count = usize::try_from(*m.tendon_num.get(tendon)?).ok()?;
     let along = |at: usize| {
         let kind = m.wrap_type.get(at).copied().unwrap_or(wraptype::PULLEY);
-        let of = m.wrap_objid.get(at).and_then(|j| usize::try_from(*j).ok());
-        kind != wraptype::JOINT || of.and_then(|j| m.jnt_type.get(j)) == Some(&joint::SLIDE)
+        let target = m.wrap_objid.get(at).and_then(|j| usize::try_from(*j).ok());
+        kind != wraptype::JOINT || target.and_then(|j| m.jnt_type.get(j)) == Some(&joint::SLIDE)
     };
-    (first..first + count).all(along).then_some(Motion::Along)
+    (first..first + count).all(along).then_some(MotionKind::Along)
 }
 
 /// The dimension of a control: the force of a motor, or the target position or velocity of a servo.
@@ -178,7 +178,7 @@ fn control(m: &Model, at: usize) -> Measure {
         [0.0, velocity] if affine && gain != 0.0 && velocity == -gain => ["m/s", "rad/s"],
         _ => return Measure::Unknown,
     };
-    read(if motion == Motion::Along { unit[0] } else { unit[1] })
+    read(if motion == MotionKind::Along { unit[0] } else { unit[1] })
 }
 
 /// The dimension of a value of a sensor.
@@ -196,8 +196,8 @@ fn sensor(m: &Model, f: FieldId, at: usize) -> Measure {
         _ => None,
     };
     match motion {
-        Some(Motion::Along) => read(along),
-        Some(Motion::Turning) => read(turning),
+        Some(MotionKind::Along) => read(along),
+        Some(MotionKind::Turning) => read(turning),
         _ => Measure::Unknown,
     }
 }

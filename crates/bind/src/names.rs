@@ -6,7 +6,7 @@ use super::elements;
 use super::enums::ENUMS;
 use super::field_entry::{field, member_name, noun, owner, short_name};
 use super::functions::{self, FunctionPlace, OBJECTS, TABLE};
-use super::handle::{self, HandleTarget, KINDS, Side};
+use super::handle::{self, FieldOwner, HandleTarget, KINDS};
 use super::host_terms::HOST_TERMS;
 use super::measures;
 use labspec_core::reflect::{self, FieldId, Object, data, option};
@@ -89,13 +89,13 @@ impl ModelNames<'_> {
     /// The fields of one object, with their names in the object.
     fn rows(
         &self,
-        side: Side,
+        side: FieldOwner,
         kind: Obj,
         index: usize,
     ) -> impl Iterator<Item = (String, FieldId, usize, usize)> + '_ {
         let objects = match side {
-            Side::Model => Object::Model,
-            Side::Data => Object::Data,
+            FieldOwner::Model => Object::Model,
+            FieldOwner::Data => Object::Data,
         };
         reflect::fields().filter(move |f| f.info().object == objects).filter_map(move |f| {
             let (first, count) = elements::row(self.model, f, kind, index)?;
@@ -103,7 +103,7 @@ impl ModelNames<'_> {
         })
     }
 
-    fn named_member(&self, side: Side, kind: Obj, index: usize, name: &str) -> Option<Entry> {
+    fn named_member(&self, side: FieldOwner, kind: Obj, index: usize, name: &str) -> Option<Entry> {
         match name {
             "id" => return Some(Entry::Constant(Value::Number(index as f64))),
             "name" => {
@@ -114,17 +114,18 @@ impl ModelNames<'_> {
             _ => {}
         }
         // `data.sensor("x").data`, as in MuJoCo's bindings.
-        let wanted = if kind == Obj::Sensor && name == "data" { "sensordata" } else { name };
-        let (_, f, first, count) =
-            self.rows(side, kind, index).find(|(short, f, ..)| short == wanted || f.info().name == wanted)?;
+        let full_name = if kind == Obj::Sensor && name == "data" { "sensordata" } else { name };
+        let (_, f, first, count) = self
+            .rows(side, kind, index)
+            .find(|(short, f, ..)| short == full_name || f.info().name == full_name)?;
         let holder = self.describe(handle::encode(HandleTarget::Named(side, kind, index)));
         let path = format!("{}.{name}", self.path(side, kind, index));
         Some(Entry::Field(field(f, path, first, vec![Some(count)], format!("{holder} has {count} of these"))))
     }
 
     /// An object as an author writes it: `data.joint("hinge")`.
-    fn path(&self, side: Side, kind: Obj, index: usize) -> String {
-        let holder = if side == Side::Data { "data" } else { "model" };
+    fn path(&self, side: FieldOwner, kind: Obj, index: usize) -> String {
+        let holder = if side == FieldOwner::Data { "data" } else { "model" };
         let name = self.model.names.of_kind(kind).get(index).map_or("", String::as_str);
         format!("{holder}.{}(\"{name}\")", noun(kind))
     }
@@ -169,8 +170,8 @@ impl Schema for ModelNames<'_> {
 
     fn member(&self, object: ObjectId, name: &str) -> Option<Entry> {
         match handle::decode(object)? {
-            HandleTarget::Struct(of) => {
-                if of == Object::Model {
+            HandleTarget::Struct(owner) => {
+                if owner == Object::Model {
                     match name {
                         "opt" => {
                             return Some(Entry::Object(handle::encode(HandleTarget::Struct(Object::Option))));
@@ -183,18 +184,18 @@ impl Schema for ModelNames<'_> {
                         _ => {}
                     }
                 }
-                let side = match of {
-                    Object::Model => Some(Side::Model),
-                    Object::Data => Some(Side::Data),
+                let side = match owner {
+                    Object::Model => Some(FieldOwner::Model),
+                    Object::Data => Some(FieldOwner::Data),
                     _ => None,
                 };
                 // A field with this name takes precedence, as in `data.contact`.
                 if let (Some(side), Some(kind), None) =
-                    (side, handle::kind_of(name), reflect::field(of, name))
+                    (side, handle::kind_of(name), reflect::field(owner, name))
                 {
                     return Some(Entry::Collection(handle::collection(side, kind)));
                 }
-                let f = reflect::field(of, name)?;
+                let f = reflect::field(owner, name)?;
                 Some(Entry::Field(self.whole(f, format!("{}.{name}", self.describe(object)))))
             }
             HandleTarget::Functions(i) => {
@@ -227,12 +228,12 @@ impl Schema for ModelNames<'_> {
     fn member_names(&self, object: ObjectId) -> Vec<String> {
         let mut names: Vec<String> = Vec::new();
         match handle::decode(object) {
-            Some(HandleTarget::Struct(of)) => {
-                names.extend(Self::struct_fields(of).map(|f| f.info().name.to_string()));
-                if of == Object::Model {
+            Some(HandleTarget::Struct(owner)) => {
+                names.extend(Self::struct_fields(owner).map(|f| f.info().name.to_string()));
+                if owner == Object::Model {
                     names.extend(["opt".into(), "stat".into()]);
                 }
-                if matches!(of, Object::Model | Object::Data) {
+                if matches!(owner, Object::Model | Object::Data) {
                     names.extend(KINDS.iter().map(|(_, noun)| noun.to_string()));
                 }
             }
@@ -328,8 +329,8 @@ impl Schema for ModelNames<'_> {
     fn named_element(&self, FieldKey(f): FieldKey, index: usize) -> Option<String> {
         let field = FieldId::new(f as usize)?;
         let side = match field.info().object {
-            Object::Model => Side::Model,
-            Object::Data => Side::Data,
+            Object::Model => FieldOwner::Model,
+            Object::Data => FieldOwner::Data,
             _ => return None,
         };
         let (kind, object) = elements::owner(self.model, field, index)?;
@@ -338,16 +339,16 @@ impl Schema for ModelNames<'_> {
         let plain = |n: &&String| !n.is_empty() && !n.contains(['\'', '\\']) && !n.contains(char::is_control);
         let name = self.model.names.of_kind(kind).get(object).filter(plain)?;
         let short = member_name(field.info().object, field.info().name, kind);
-        let holder = if side == Side::Data { "data" } else { "model" };
+        let holder = if side == FieldOwner::Data { "data" } else { "model" };
         // Single quotes need no escapes in the JSON of a lab.
         Some(format!("{holder}.{}('{name}').{short}[{}]", noun(kind), index - first))
     }
 
     fn result_field(&self, FunctionId(i): FunctionId, object: ObjectId) -> Option<Field> {
         let (f, kind) = TABLE.get(i as usize)?.gives?;
-        let Some(HandleTarget::Named(_, of, index)) = handle::decode(object) else { return None };
-        let (first, count) = elements::row(self.model, f, kind, index).filter(|_| of == kind)?;
-        let path = format!("{}.{}", self.path(Side::Data, kind, index), short_name(f.info().name));
+        let Some(HandleTarget::Named(_, owner, index)) = handle::decode(object) else { return None };
+        let (first, count) = elements::row(self.model, f, kind, index).filter(|_| owner == kind)?;
+        let path = format!("{}.{}", self.path(FieldOwner::Data, kind, index), short_name(f.info().name));
         Some(field(f, path, first, vec![Some(count)], format!("a position has {count} of these")))
     }
 
@@ -359,7 +360,7 @@ impl Schema for ModelNames<'_> {
 
     fn hint(&self, object: ObjectId, name: &str) -> Option<String> {
         let here = match handle::decode(object)? {
-            HandleTarget::Struct(of) => of,
+            HandleTarget::Struct(owner) => owner,
             HandleTarget::Functions(_) if name.starts_with("mj_") => {
                 return Some(format!("`{name}` is a function of MuJoCo that labspec does not offer yet"));
             }
@@ -367,7 +368,7 @@ impl Schema for ModelNames<'_> {
         };
         let elsewhere = [Object::Model, Object::Option, Object::Data, Object::Statistic]
             .into_iter()
-            .find(|&of| of != here && reflect::field(of, name).is_some())?;
+            .find(|&owner| owner != here && reflect::field(owner, name).is_some())?;
         let holder = self.describe(handle::encode(HandleTarget::Struct(elsewhere)));
         Some(format!("`{name}` belongs to {holder}: write `{holder}.{name}`"))
     }

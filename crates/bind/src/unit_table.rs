@@ -27,7 +27,7 @@ pub const PREFIXES: [(&str, i32); 13] = [
 ];
 
 /// A unit: its symbol, its size, the powers of its base units, and whether it can have a prefix.
-struct Row(&'static str, f64, &'static [(usize, i32)], bool);
+struct UnitRow(&'static str, f64, &'static [(usize, i32)], bool);
 
 const ANGLES: &[(usize, i32)] = &[(ANGLE, 1)];
 const LENGTH: &[(usize, i32)] = &[(M, 1)];
@@ -39,68 +39,68 @@ const POWER: &[(usize, i32)] = &[(KG, 1), (M, 2), (S, -3)];
 const PRESSURE: &[(usize, i32)] = &[(KG, 1), (M, -1), (S, -2)];
 
 /// The symbols of units, case-sensitive, and names in scripts without capital letters.
-const UNITS: [Row; 49] = [
-    Row("rad", 1.0, ANGLES, true),
-    Row("deg", PI / 180.0, ANGLES, false),
-    Row("°", PI / 180.0, ANGLES, false),
-    Row("rev", 2.0 * PI, ANGLES, false),
-    Row("m", 1.0, LENGTH, true),
-    Row("ft", 0.3048, LENGTH, false),
-    Row("s", 1.0, TIME, true),
-    Row("min", 60.0, TIME, false),
-    Row("h", 3600.0, TIME, false),
-    Row("g", 1e-3, MASS, true),
-    Row("lb", 0.453_592_37, MASS, false),
-    Row("lbs", 0.453_592_37, MASS, false),
-    Row("K", 1.0, &[(K, 1)], true),
-    Row("A", 1.0, &[(A, 1)], true),
-    Row("C", 1.0, &[(A, 1), (S, 1)], true),
-    Row("N", 1.0, FORCE, true),
-    Row("Nm", 1.0, ENERGY, true),
-    Row("Ns", 1.0, &[(KG, 1), (M, 1), (S, -1)], true),
-    Row("J", 1.0, ENERGY, true),
-    Row("W", 1.0, POWER, true),
-    Row("Pa", 1.0, PRESSURE, true),
-    Row("bar", 1e5, PRESSURE, true),
-    Row("Hz", 1.0, &[(S, -1)], true),
-    Row("rpm", 2.0 * PI / 60.0, &[(ANGLE, 1), (S, -1)], false),
-    Row("mph", 0.447_04, &[(M, 1), (S, -1)], false),
-    Row("kph", 1.0 / 3.6, &[(M, 1), (S, -1)], false),
-    Row("V", 1.0, &[(KG, 1), (M, 2), (S, -3), (A, -1)], true),
-    Row("T", 1.0, &[(KG, 1), (S, -2), (A, -1)], true),
-    Row("L", 1e-3, &[(M, 3)], true),
-    Row("l", 1e-3, &[(M, 3)], true),
-    Row("秒", 1.0, TIME, true),
-    Row("秒钟", 1.0, TIME, false),
-    Row("秒鐘", 1.0, TIME, false),
-    Row("分", 60.0, TIME, false),
-    Row("分钟", 60.0, TIME, false),
-    Row("分鐘", 60.0, TIME, false),
-    Row("小时", 3600.0, TIME, false),
-    Row("小時", 3600.0, TIME, false),
-    Row("時間", 3600.0, TIME, false),
-    Row("米", 1.0, LENGTH, true),
-    Row("公里", 1e3, LENGTH, false),
-    Row("公分", 1e-2, LENGTH, false),
-    Row("メートル", 1.0, LENGTH, true),
-    Row("克", 1e-3, MASS, true),
-    Row("公斤", 1.0, MASS, false),
-    Row("グラム", 1e-3, MASS, true),
-    Row("度", PI / 180.0, ANGLES, false),
-    Row("弧度", 1.0, ANGLES, false),
-    Row("ラジアン", 1.0, ANGLES, true),
+const UNITS: [UnitRow; 49] = [
+    UnitRow("rad", 1.0, ANGLES, true),
+    UnitRow("deg", PI / 180.0, ANGLES, false),
+    UnitRow("°", PI / 180.0, ANGLES, false),
+    UnitRow("rev", 2.0 * PI, ANGLES, false),
+    UnitRow("m", 1.0, LENGTH, true),
+    UnitRow("ft", 0.3048, LENGTH, false),
+    UnitRow("s", 1.0, TIME, true),
+    UnitRow("min", 60.0, TIME, false),
+    UnitRow("h", 3600.0, TIME, false),
+    UnitRow("g", 1e-3, MASS, true),
+    UnitRow("lb", 0.453_592_37, MASS, false),
+    UnitRow("lbs", 0.453_592_37, MASS, false),
+    UnitRow("K", 1.0, &[(K, 1)], true),
+    UnitRow("A", 1.0, &[(A, 1)], true),
+    UnitRow("C", 1.0, &[(A, 1), (S, 1)], true),
+    UnitRow("N", 1.0, FORCE, true),
+    UnitRow("Nm", 1.0, ENERGY, true),
+    UnitRow("Ns", 1.0, &[(KG, 1), (M, 1), (S, -1)], true),
+    UnitRow("J", 1.0, ENERGY, true),
+    UnitRow("W", 1.0, POWER, true),
+    UnitRow("Pa", 1.0, PRESSURE, true),
+    UnitRow("bar", 1e5, PRESSURE, true),
+    UnitRow("Hz", 1.0, &[(S, -1)], true),
+    UnitRow("rpm", 2.0 * PI / 60.0, &[(ANGLE, 1), (S, -1)], false),
+    UnitRow("mph", 0.447_04, &[(M, 1), (S, -1)], false),
+    UnitRow("kph", 1.0 / 3.6, &[(M, 1), (S, -1)], false),
+    UnitRow("V", 1.0, &[(KG, 1), (M, 2), (S, -3), (A, -1)], true),
+    UnitRow("T", 1.0, &[(KG, 1), (S, -2), (A, -1)], true),
+    UnitRow("L", 1e-3, &[(M, 3)], true),
+    UnitRow("l", 1e-3, &[(M, 3)], true),
+    UnitRow("秒", 1.0, TIME, true),
+    UnitRow("秒钟", 1.0, TIME, false),
+    UnitRow("秒鐘", 1.0, TIME, false),
+    UnitRow("分", 60.0, TIME, false),
+    UnitRow("分钟", 60.0, TIME, false),
+    UnitRow("分鐘", 60.0, TIME, false),
+    UnitRow("小时", 3600.0, TIME, false),
+    UnitRow("小時", 3600.0, TIME, false),
+    UnitRow("時間", 3600.0, TIME, false),
+    UnitRow("米", 1.0, LENGTH, true),
+    UnitRow("公里", 1e3, LENGTH, false),
+    UnitRow("公分", 1e-2, LENGTH, false),
+    UnitRow("メートル", 1.0, LENGTH, true),
+    UnitRow("克", 1e-3, MASS, true),
+    UnitRow("公斤", 1.0, MASS, false),
+    UnitRow("グラム", 1e-3, MASS, true),
+    UnitRow("度", PI / 180.0, ANGLES, false),
+    UnitRow("弧度", 1.0, ANGLES, false),
+    UnitRow("ラジアン", 1.0, ANGLES, true),
 ];
 
 /// Further names in such scripts.
-const NAMED: [Row; 8] = [
-    Row("牛", 1.0, FORCE, true),
-    Row("牛顿", 1.0, FORCE, true),
-    Row("牛頓", 1.0, FORCE, true),
-    Row("ニュートン", 1.0, FORCE, true),
-    Row("焦耳", 1.0, ENERGY, true),
-    Row("ジュール", 1.0, ENERGY, true),
-    Row("瓦", 1.0, POWER, true),
-    Row("赫兹", 1.0, &[(S, -1)], true),
+const NAMED: [UnitRow; 8] = [
+    UnitRow("牛", 1.0, FORCE, true),
+    UnitRow("牛顿", 1.0, FORCE, true),
+    UnitRow("牛頓", 1.0, FORCE, true),
+    UnitRow("ニュートン", 1.0, FORCE, true),
+    UnitRow("焦耳", 1.0, ENERGY, true),
+    UnitRow("ジュール", 1.0, ENERGY, true),
+    UnitRow("瓦", 1.0, POWER, true),
+    UnitRow("赫兹", 1.0, &[(S, -1)], true),
 ];
 
 /// Names of units in lower case without a plural `s`: their size in the unit of a symbol, and that symbol.
@@ -279,8 +279,8 @@ pub(crate) fn symbol(word: &str) -> Option<Dimension> {
     let row = |name: &str| UNITS.iter().chain(&NAMED).find(|row| row.0 == name);
     let lower = word.to_lowercase();
     let named = || {
-        let (size, of) = named(&lower)?;
-        Some((row(of)?, size))
+        let (size, base) = named(&lower)?;
+        Some((row(base)?, size))
     };
     let (row, size) = match row(word) {
         Some(row) => (row, 1.0),
@@ -303,7 +303,7 @@ pub(crate) fn symbol(word: &str) -> Option<Dimension> {
 }
 
 /// A symbol after a prefix that is written as a word: `millis`, `kiloN`.
-fn spelled(word: &str) -> Option<(&'static Row, f64)> {
+fn spelled(word: &str) -> Option<(&'static UnitRow, f64)> {
     let mut found = NAMED_PREFIXES.iter().filter(|(p, _)| p.is_ascii()).filter_map(|(prefix, power)| {
         let (head, tail) = word.split_at_checked(prefix.len())?;
         let row = UNITS.iter().find(|row| row.3 && row.0 == tail)?;
@@ -314,13 +314,14 @@ fn spelled(word: &str) -> Option<(&'static Row, f64)> {
 
 /// A unit by its name in lower case: its size, and the symbol in whose unit the size is.
 fn named(word: &str) -> Option<(f64, &'static str)> {
-    let one = |word: &str| WORDS.iter().find(|(name, ..)| *name == word).map(|(_, size, of)| (*size, *of));
+    let one =
+        |word: &str| WORDS.iter().find(|(name, ..)| *name == word).map(|(_, size, base)| (*size, *base));
     let any = |word: &str| one(word).or_else(|| one(word.strip_suffix('s')?));
     any(word).or_else(|| {
         let mut prefixed =
             NAMED_PREFIXES.iter().filter(|(p, _)| p.is_ascii()).filter_map(|(prefix, power)| {
-                let (size, of) = any(word.strip_prefix(prefix)?)?;
-                Some((size * 10f64.powi(*power), of))
+                let (size, base) = any(word.strip_prefix(prefix)?)?;
+                Some((size * 10f64.powi(*power), base))
             });
         prefixed.next()
     })

@@ -164,21 +164,21 @@ mod tests {
 
     #[test]
     fn the_longest_unit_is_read() {
-        let of = |text: &str| read(text).map(|u| (u.length, u.dimension.map(|d| written(&d))));
+        let parsed = |text: &str| read(text).map(|u| (u.length, u.dimension.map(|d| written(&d))));
         let symbol = |length, unit: &str| Some((length, Some(unit.to_string())));
-        assert_eq!(of("s, and"), symbol(1, "s"));
-        assert_eq!(of("N m at"), symbol(3, "N m"));
-        assert_eq!(of("s / m high"), symbol(5, "s/m"));
-        assert_eq!(of("s per m"), symbol(7, "s/m"));
-        assert_eq!(of("s m"), symbol(3, "m s"));
-        assert_eq!(of("s-1."), symbol(3, "1/s"));
-        assert_eq!(of("s-0.5 s"), symbol(1, "s"));
-        assert_eq!(of("s 2 m"), symbol(1, "s"));
-        assert_eq!(of("秒的时间"), symbol(3, "s"));
-        assert_eq!(of("千克"), symbol(6, "kg"));
-        assert_eq!(of("°C"), Some((3, None)));
-        assert_eq!(of("N m/rad s"), Some((9, None)));
-        assert_eq!(of("balls"), None);
+        assert_eq!(parsed("s, and"), symbol(1, "s"));
+        assert_eq!(parsed("N m at"), symbol(3, "N m"));
+        assert_eq!(parsed("s / m high"), symbol(5, "s/m"));
+        assert_eq!(parsed("s per m"), symbol(7, "s/m"));
+        assert_eq!(parsed("s m"), symbol(3, "m s"));
+        assert_eq!(parsed("s-1."), symbol(3, "1/s"));
+        assert_eq!(parsed("s-0.5 s"), symbol(1, "s"));
+        assert_eq!(parsed("s 2 m"), symbol(1, "s"));
+        assert_eq!(parsed("秒的时间"), symbol(3, "s"));
+        assert_eq!(parsed("千克"), symbol(6, "kg"));
+        assert_eq!(parsed("°C"), Some((3, None)));
+        assert_eq!(parsed("N m/rad s"), Some((9, None)));
+        assert_eq!(parsed("balls"), None);
     }
 
     /// A text of 100 kB of characters with which a unit may begin is parsed fast, without deep recursion.

@@ -1,7 +1,7 @@
 //! `labspec build`: a course as a static site.
 
 use super::cache::Cache;
-use super::common::{Failure, ModelOptions, Outcome, interrupted};
+use super::common::{CommandOutcome, Failure, ModelOptions, interrupted};
 use super::course::{CheckRequest, CourseResults, CrossCheckRequest};
 use super::output::{remove_site_file, write_site_file};
 use super::policy::PolicyOptions;
@@ -9,7 +9,7 @@ use super::scheduler::check_lessons;
 use super::stdio::print;
 use super::target::model_folder_within;
 use labspec::check::CheckLevel;
-use labspec::ledger::Outcome as LedgerOutcome;
+use labspec::ledger::Outcome;
 use labspec::lint::ModelFolder;
 use labspec::report::{counted, human, printable, printable_path};
 use labspec::source::SourceFile;
@@ -86,7 +86,7 @@ fn base_address(text: &str) -> Result<String, String> {
 }
 
 /// Checks the course and writes its site.
-pub(super) fn build(a: &BuildArguments) -> Result<Outcome, Failure> {
+pub(super) fn build(a: &BuildArguments) -> Result<CommandOutcome, Failure> {
     if !a.folder.is_dir() {
         return Err(format!("{} is not a folder of lessons", printable_path(&a.folder)));
     }
@@ -94,7 +94,7 @@ pub(super) fn build(a: &BuildArguments) -> Result<Outcome, Failure> {
     let old = earlier_site(&a.folder, &a.out)?;
     let results = check_course(a)?;
     if interrupted() {
-        return Ok(Outcome::Clean);
+        return Ok(CommandOutcome::Clean);
     }
     let models = |path: &Path| {
         let named = std::slice::from_ref(&a.folder);
@@ -127,7 +127,7 @@ fn check_course(a: &BuildArguments) -> Result<CourseResults, Failure> {
 }
 
 /// Prints the findings and what was written. The site is complete in any case; the outcome is that of the check.
-fn report(a: &BuildArguments, results: &CourseResults, site: &Site) -> Result<Outcome, Failure> {
+fn report(a: &BuildArguments, results: &CourseResults, site: &Site) -> Result<CommandOutcome, Failure> {
     let mut sources: Vec<&SourceFile> = results.checked.iter().map(|c| &c.lesson.file).collect();
     sources.extend(&results.sources);
     let mut text = human(&results.findings, &sources, false);
@@ -147,10 +147,10 @@ fn report(a: &BuildArguments, results: &CourseResults, site: &Site) -> Result<Ou
     ));
     print(&text)?;
     Ok(match results.ledger.outcome() {
-        LedgerOutcome::Findings => Outcome::Findings,
-        LedgerOutcome::Partial => Outcome::Partial,
-        _ if !site.problems.is_empty() => Outcome::Findings,
-        _ => Outcome::Clean,
+        Outcome::Findings => CommandOutcome::Findings,
+        Outcome::Partial => CommandOutcome::Partial,
+        _ if !site.problems.is_empty() => CommandOutcome::Findings,
+        _ => CommandOutcome::Clean,
     })
 }
 

@@ -4,7 +4,7 @@ use super::baseline::Baseline;
 use super::cache::Cache;
 use super::check_output::{CheckFormat, OutputOptions, PreviousRecord, report_results};
 use super::collect::{STDIN, collect};
-use super::common::{Color, Failure, ModelOptions, Outcome};
+use super::common::{Color, CommandOutcome, Failure, ModelOptions};
 use super::course::{CheckRequest, CrossCheckRequest};
 use super::fix::{FixMode, fix};
 use super::output::{PlannedOutput, check_outputs_writable};
@@ -13,7 +13,7 @@ use super::policy::PolicyOptions;
 use super::scheduler::check_lessons;
 use super::stdio::print_error;
 use super::{judge, reproduction, watch};
-use labspec::check::{CheckLevel, Recording};
+use labspec::check::{CheckLevel, ReferenceRecording};
 use labspec::report::counted;
 use std::io::{IsTerminal, Read};
 use std::num::NonZeroUsize;
@@ -109,10 +109,10 @@ struct CheckInputs<'a> {
     stdin: Option<(PathBuf, String)>,
     baseline: Option<Baseline>,
     previous: Option<PreviousRecord<'a>>,
-    recording: Option<Recording>,
+    recording: Option<ReferenceRecording>,
 }
 
-pub(super) fn check_command(a: &CheckArguments) -> Result<Outcome, Failure> {
+pub(super) fn check_command(a: &CheckArguments) -> Result<CommandOutcome, Failure> {
     let level = if a.no_run { CheckLevel::STATIC } else { CheckLevel::FULL };
     let fix =
         (a.fix || a.diff || a.unsafe_fixes).then_some(FixMode { guesses: a.unsafe_fixes, diff: a.diff });
@@ -121,7 +121,7 @@ pub(super) fn check_command(a: &CheckArguments) -> Result<Outcome, Failure> {
     run_check(&a.common, level, false, fix, paths)
 }
 
-pub(super) fn verify_command(a: &VerifyArguments) -> Result<Outcome, Failure> {
+pub(super) fn verify_command(a: &VerifyArguments) -> Result<CommandOutcome, Failure> {
     run_check(a, CheckLevel::CLAIMS, true, None, RecordPaths::default())
 }
 
@@ -132,7 +132,7 @@ fn run_check(
     with_evidence: bool,
     fix_mode: Option<FixMode>,
     paths: RecordPaths<'_>,
-) -> Result<Outcome, Failure> {
+) -> Result<CommandOutcome, Failure> {
     let cache = Cache::open(a.no_cache, a.watch);
     let processors = || std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
     let inputs = read_inputs(a, fix_mode.is_some(), paths)?;
@@ -225,10 +225,10 @@ fn check_outputs(a: &VerifyArguments, paths: RecordPaths<'_>) -> Result<(), Fail
 }
 
 /// Applies fixes. With `--diff`, the command ends here with the returned outcome.
-fn apply_fixes(request: &CheckRequest<'_>, mode: FixMode) -> Result<Option<Outcome>, Failure> {
+fn apply_fixes(request: &CheckRequest<'_>, mode: FixMode) -> Result<Option<CommandOutcome>, Failure> {
     let repaired = fix(request, mode)?;
     if mode.diff {
-        return Ok(Some(if repaired.fixes > 0 { Outcome::Findings } else { Outcome::Clean }));
+        return Ok(Some(if repaired.fixes > 0 { CommandOutcome::Findings } else { CommandOutcome::Clean }));
     }
     if repaired.fixes > 0 {
         print_error(&format!(

@@ -1,14 +1,14 @@
 //! The output of a check: what each format prints, the files that are written, and the outcome of the command.
 
 use super::baseline::Baseline;
-use super::common::{Color, Failure, Outcome, interrupted};
+use super::common::{Color, CommandOutcome, Failure, interrupted};
 use super::course::CourseResults;
 use super::machine::check_report;
 use super::output::write_file;
 use super::output_kind::OutputKind;
 use super::overview::{format_allowed, format_overview, format_summary};
 use super::report_json::print_report;
-use super::reproduction::Record;
+use super::reproduction::ReproductionRecord;
 use super::stdio::{print, print_json};
 use super::{judge, reproduction, since};
 use clap::ValueEnum;
@@ -40,7 +40,7 @@ pub(super) enum CheckFormat {
 }
 
 /// The record of an earlier check: its file and its content.
-pub(super) type PreviousRecord<'a> = (&'a Path, Record);
+pub(super) type PreviousRecord<'a> = (&'a Path, ReproductionRecord);
 
 /// The file of the earlier record, and the changes since then.
 type Changes<'a> = (&'a Path, Vec<since::LessonChange>);
@@ -75,13 +75,14 @@ pub(super) struct OutputOptions<'a> {
 pub(super) fn report_results(
     options: &OutputOptions<'_>,
     results: &CourseResults,
-) -> Result<Outcome, Failure> {
+) -> Result<CommandOutcome, Failure> {
     let outcome = overall_outcome(options, results);
     let mut sources: Vec<&SourceFile> = results.checked.iter().map(|c| &c.lesson.file).collect();
     sources.extend(&results.sources);
     write_files(options, results, &sources)?;
-    let changes =
-        options.previous.map(|(file, old)| (*file, since::changes(old, &reproduction::now(file, results))));
+    let changes = options
+        .previous
+        .map(|(file, old)| (*file, since::changes(old, &reproduction::current(file, results))));
     match options.format {
         _ if options.statistics => print(&report::statistics(&results.findings))?,
         CheckFormat::Human => print(&human_text(options, outcome, results, &sources, changes.as_ref()))?,
@@ -127,7 +128,7 @@ fn write_files(
         Baseline::new(file).write(file, &results.findings, sources)?;
     }
     if let Some(file) = options.record.filter(|_| !interrupted()) {
-        reproduction::write(file, &reproduction::now(file, results))?;
+        reproduction::write(file, &reproduction::current(file, results))?;
     }
     if let Some(file) = options.judge_request.filter(|_| !interrupted()) {
         judge::write_request(file, results)?;
@@ -181,26 +182,26 @@ fn command_outcome(
     options: &OutputOptions<'_>,
     outcome: ledger::Outcome,
     results: &CourseResults,
-) -> Result<Outcome, Failure> {
+) -> Result<CommandOutcome, Failure> {
     if options.new_baseline.is_some() {
         // The current findings have become the baseline, so there are no new ones.
-        return Ok(Outcome::Clean);
+        return Ok(CommandOutcome::Clean);
     }
     let names = || options.paths.iter().map(|p| printable_path(p)).collect::<Vec<_>>().join(", ");
     match outcome {
-        ledger::Outcome::Findings => Ok(Outcome::Findings),
+        ledger::Outcome::Findings => Ok(CommandOutcome::Findings),
         ledger::Outcome::Nothing if results.ledger.outcome() == ledger::Outcome::Clean => {
             Err(format!("{} has nothing to verify: no question and no lab has a `verify` object", names()))
         }
         ledger::Outcome::Nothing => {
             Err(format!("{} has nothing to check: no lab, no question and no model", names()))
         }
-        ledger::Outcome::Partial => Ok(Outcome::Partial),
+        ledger::Outcome::Partial => Ok(CommandOutcome::Partial),
         ledger::Outcome::Clean | ledger::Outcome::Known
             if results.reference_engine.is_some() && judge::is_partial(results) =>
         {
-            Ok(Outcome::Partial)
+            Ok(CommandOutcome::Partial)
         }
-        ledger::Outcome::Clean | ledger::Outcome::Known => Ok(Outcome::Clean),
+        ledger::Outcome::Clean | ledger::Outcome::Known => Ok(CommandOutcome::Clean),
     }
 }

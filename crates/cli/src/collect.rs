@@ -32,7 +32,7 @@ pub(super) type ListedFile = (PathBuf, bool);
 /// A path that could not be read, and the reason.
 pub(super) type UnreadFile = (PathBuf, String);
 
-/// The path that stands for standard input.
+/// The path that denotes standard input.
 pub(super) const STDIN: &str = "-";
 
 /// The files under the paths of a command.
@@ -43,13 +43,13 @@ pub(super) struct Collected {
     /// Paths that could not be read, with the reasons.
     pub(super) problems: Vec<UnreadFile>,
     /// Paths that were skipped, with the reasons: links that lead out of the root.
-    pub(super) left_out: Vec<UnreadFile>,
+    pub(super) skipped: Vec<UnreadFile>,
 }
 
 impl Collected {
     /// Prints the skipped paths on standard error.
     pub(super) fn print_skipped(&self) {
-        for (path, why) in &self.left_out {
+        for (path, why) in &self.skipped {
             print_error(&printable_lines(&format!("labspec: {} is skipped: {why}\n", path.display())));
         }
     }
@@ -94,10 +94,10 @@ fn without_duplicates(files: Vec<ListedFile>) -> Vec<ListedFile> {
 /// The maximum nesting of folders.
 const MAX_DEPTH: usize = 32;
 
-/// Collects the wanted files of a folder, except hidden files, files listed in `.gitignore`, and `node_modules`. A link to a
+/// Collects the selected files of a folder, except hidden files, files listed in `.gitignore`, and `node_modules`. A link to a
 /// file below the root is followed. A link that leads out of the root is skipped. Links to folders are not followed, because
 /// the folder itself is visited.
-fn walk(folder: &Path, wanted: &dyn Fn(&Path) -> bool, all: &mut Collected) {
+fn walk(folder: &Path, is_selected: &dyn Fn(&Path) -> bool, all: &mut Collected) {
     let entries = ignore::WalkBuilder::new(folder)
         .follow_links(false)
         .require_git(false)
@@ -119,28 +119,28 @@ fn walk(folder: &Path, wanted: &dyn Fn(&Path) -> bool, all: &mut Collected) {
         let Some(kind) = entry.file_type() else { continue };
         if kind.is_symlink() && entry.depth() > 0 {
             let root = root.get_or_insert_with(|| root_of(folder, &[]));
-            follow(path, root, wanted, all);
+            follow(path, root, is_selected, all);
         } else if kind.is_dir() && entry.depth() > MAX_DEPTH {
             let why = format!("{} is nested more than {MAX_DEPTH} folders deep", printable_path(path));
             all.problems.push((path.to_path_buf(), why));
-        } else if kind.is_file() && wanted(path) {
+        } else if kind.is_file() && is_selected(path) {
             all.files.push((path.to_path_buf(), false));
         }
     }
 }
 
 /// Adds the target of a link if it is below the root.
-fn follow(link: &Path, root: &Path, wanted: &dyn Fn(&Path) -> bool, all: &mut Collected) {
+fn follow(link: &Path, root: &Path, is_selected: &dyn Fn(&Path) -> bool, all: &mut Collected) {
     let real = match link.canonicalize() {
         Ok(real) => real,
         Err(e) => {
-            if wanted(link) {
+            if is_selected(link) {
                 all.problems.push((link.to_path_buf(), unreadable(link, &e)));
             }
             return;
         }
     };
-    let is_file = real.is_file() && wanted(link);
+    let is_file = real.is_file() && is_selected(link);
     if !is_file && !real.is_dir() {
         return;
     }
@@ -153,7 +153,7 @@ fn follow(link: &Path, root: &Path, wanted: &dyn Fn(&Path) -> bool, all: &mut Co
                 printable_name(root),
                 printable_name(&real)
             );
-            all.left_out.push((link.to_path_buf(), why));
+            all.skipped.push((link.to_path_buf(), why));
         }
     }
 }

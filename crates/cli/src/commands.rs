@@ -1,6 +1,6 @@
 //! The commands of the program: their arguments, and the dispatch.
 
-use super::common::{Failure, Outcome, interrupted};
+use super::common::{CommandOutcome, Failure, interrupted};
 #[cfg(feature = "lsp")]
 use super::lsp;
 use super::output::write_file;
@@ -89,9 +89,9 @@ pub(crate) fn run_program() -> ExitCode {
     // All work uses the same stack size, independent of that of the main thread.
     match threads::run(|| execute(&cli.command)) {
         Ok(_) if interrupted() => ExitCode::from(130),
-        Ok(Outcome::Clean) => ExitCode::SUCCESS,
-        Ok(Outcome::Findings) => ExitCode::from(1),
-        Ok(Outcome::Partial) => ExitCode::from(3),
+        Ok(CommandOutcome::Clean) => ExitCode::SUCCESS,
+        Ok(CommandOutcome::Findings) => ExitCode::from(1),
+        Ok(CommandOutcome::Partial) => ExitCode::from(3),
         Err(message) => {
             print_error(&format!("labspec: {}\n", printable_lines(&message)));
             ExitCode::from(2)
@@ -113,7 +113,7 @@ fn listen() {
     }
 }
 
-fn execute(command: &Command) -> Result<Outcome, Failure> {
+fn execute(command: &Command) -> Result<CommandOutcome, Failure> {
     match command {
         Command::Init(a) => init::init(a),
         Command::Completions(a) => completions::completions(a, &mut Cli::command()),
@@ -182,7 +182,7 @@ fn usage(e: &clap::Error) -> ExitCode {
 }
 
 /// Writes the reference pages and schemas.
-fn write_reference(folder: &std::path::Path) -> Result<Outcome, Failure> {
+fn write_reference(folder: &std::path::Path) -> Result<CommandOutcome, Failure> {
     let schemas = folder.parent().unwrap_or(folder).join("schema");
     for folder in [folder, &schemas] {
         std::fs::create_dir_all(folder)
@@ -194,5 +194,5 @@ fn write_reference(folder: &std::path::Path) -> Result<Outcome, Failure> {
     for (name, text) in labspec::reference::schemas() {
         write_file(&schemas.join(name), OutputKind::Reference, &text)?;
     }
-    Ok(Outcome::Clean)
+    Ok(CommandOutcome::Clean)
 }

@@ -39,7 +39,7 @@ impl Color {
 
 /// The outcome of a command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Outcome {
+pub(super) enum CommandOutcome {
     Clean,
     Findings,
     /// What was checked is in order, but not everything was checked.

@@ -1,6 +1,6 @@
 //! `labspec completions`: completion scripts for shells.
 
-use super::common::{Failure, Outcome};
+use super::common::{CommandOutcome, Failure};
 use super::stdio::print;
 use clap_complete::{Shell, generate};
 
@@ -12,9 +12,12 @@ pub(super) struct CompletionsArguments {
     shell: Shell,
 }
 
-pub(super) fn completions(a: &CompletionsArguments, command: &mut clap::Command) -> Result<Outcome, Failure> {
+pub(super) fn completions(
+    a: &CompletionsArguments,
+    command: &mut clap::Command,
+) -> Result<CommandOutcome, Failure> {
     let mut script = Vec::new();
     generate(a.shell, command, "labspec", &mut script);
     print(&String::from_utf8_lossy(&script))?;
-    Ok(Outcome::Clean)
+    Ok(CommandOutcome::Clean)
 }

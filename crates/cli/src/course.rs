@@ -3,7 +3,9 @@
 use super::baseline::Baseline;
 use super::common::ModelOptions;
 use super::policy::{Policy, PolicyOptions};
-use labspec::check::{Basis, CheckLevel, Checked, CrossCheck, Recording, SuppressedFinding, VerifyCurves};
+use labspec::check::{
+    Basis, CheckLevel, Checked, CrossCheck, ReferenceRecording, SuppressedFinding, VerifyCurves,
+};
 use labspec::finding::Finding;
 use labspec::ledger::Ledger;
 use labspec::source::SourceFile;
@@ -41,7 +43,7 @@ pub(super) struct CrossCheckRequest<'a> {
     /// Whether the runs that it must perform are collected.
     pub(super) collect_runs: bool,
     /// Its recording.
-    pub(super) recording: Option<&'a Recording>,
+    pub(super) recording: Option<&'a ReferenceRecording>,
 }
 
 /// The checked files and the results.

@@ -19,7 +19,7 @@ pub(super) struct FileOutcomes {
     /// Models that the user named, and whether they load.
     pub(super) models: Vec<(PathBuf, bool)>,
     /// Files that were skipped, with the reasons.
-    pub(super) left_out: Vec<(PathBuf, String)>,
+    pub(super) skipped: Vec<(PathBuf, String)>,
 }
 
 /// Builds the ledger of everything that was checked.
@@ -35,7 +35,7 @@ pub(super) fn build_ledger(
     ledger.break_off(|path| files.cancelled.contains(path));
     let mut of_files = Ledger::default();
     files.models.iter().for_each(|(path, loads)| of_files.add(model_entry(path, *loads)));
-    files.left_out.iter().for_each(|(path, why)| of_files.add(left_out_entry(path, why.clone())));
+    files.skipped.iter().for_each(|(path, why)| of_files.add(skipped_entry(path, why.clone())));
     ledger.append(of_files);
     accept_page_widgets(&mut ledger, results, policies)?;
     keep_suppressed_failures(&mut ledger, results);
@@ -73,7 +73,7 @@ fn keep_suppressed_failures(ledger: &mut Ledger, results: &CourseResults) {
     ledger.mark_baselined(|e| concerns(e, baselined.get(&e.path)) && !concerns(e, reported.get(&e.path)));
     let ignored = results.suppressed.ignored.iter().filter(|f| f.is_error()).cloned().collect();
     for (path, all) in group_by_path(ignored) {
-        ledger.add(left_out_entry(Path::new(&*path), format!("{} ignored", Summary::count(&all))));
+        ledger.add(skipped_entry(Path::new(&*path), format!("{} ignored", Summary::count(&all))));
     }
 }
 
@@ -102,14 +102,14 @@ pub(super) fn group_by_path(findings: Vec<Finding>) -> BTreeMap<Arc<str>, Vec<Fi
 }
 
 /// The entry of a file that was not checked completely, with the reason.
-fn left_out_entry(path: &Path, remark: String) -> Entry {
+fn skipped_entry(path: &Path, remark: String) -> Entry {
     let path: Arc<str> = Arc::from(path.display().to_string());
     Entry {
         subject: Subject::File,
         owner: path.to_string(),
         path,
         span: 0..0,
-        state: State::LeftOut,
+        state: State::Skipped,
         word: "left out",
         what: String::new(),
         remark,

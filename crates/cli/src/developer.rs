@@ -1,6 +1,6 @@
 //! `labspec record` and `labspec bench`, for engineers of labspec. The crate `labspec-developer` implements them.
 
-use super::common::{Failure, ModelOptions, Outcome};
+use super::common::{CommandOutcome, Failure, ModelOptions};
 use super::stdio::print_json;
 use super::target;
 use labspec::report::report;
@@ -15,7 +15,7 @@ pub(super) struct RecordArguments {
     #[command(flatten)]
     models: ModelOptions,
     #[command(flatten)]
-    options: record::Options,
+    options: record::RecordOptions,
 }
 
 /// Arguments of `bench`.
@@ -26,21 +26,21 @@ pub(super) struct BenchArguments {
     #[command(flatten)]
     models: ModelOptions,
     #[command(flatten)]
-    options: bench::Options,
+    options: bench::BenchOptions,
 }
 
-pub(super) fn record(a: &RecordArguments) -> Result<Outcome, Failure> {
+pub(super) fn record(a: &RecordArguments) -> Result<CommandOutcome, Failure> {
     let model = target::load_model(&a.model, &a.models)?;
     let recording = record::record(model, &a.options)?;
     let value = serde_json::to_value(recording).map_err(|e| e.to_string())?;
     print_json(&report("record", value), false)?;
-    Ok(Outcome::Clean)
+    Ok(CommandOutcome::Clean)
 }
 
-pub(super) fn bench(a: &BenchArguments) -> Result<Outcome, Failure> {
+pub(super) fn bench(a: &BenchArguments) -> Result<CommandOutcome, Failure> {
     let target = target::open(&a.lab, &a.models)?;
     let time = bench::measure_steps(&target.lab, &target.model, &target.programs, &a.options);
     let value = serde_json::to_value(time).map_err(|e| e.to_string())?;
     print_json(&report("bench", value), false)?;
-    Ok(Outcome::Clean)
+    Ok(CommandOutcome::Clean)
 }

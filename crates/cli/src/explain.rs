@@ -1,6 +1,6 @@
 //! `labspec explain`.
 
-use super::common::{Failure, Outcome};
+use super::common::{CommandOutcome, Failure};
 use super::stdio::print;
 use labspec::json;
 use labspec::rules;
@@ -12,17 +12,17 @@ pub(super) struct ExplainArguments {
     code: Option<String>,
 }
 
-pub(super) fn explain(a: &ExplainArguments) -> Result<Outcome, Failure> {
+pub(super) fn explain(a: &ExplainArguments) -> Result<CommandOutcome, Failure> {
     let Some(code) = &a.code else {
         let width = rules::all().map(|rule| rule.code.len()).max().unwrap_or(0);
         let lines: Vec<String> =
             rules::all().map(|rule| format!("{:<width$}  {}\n", rule.code, rule.summary)).collect();
         print(&lines.concat())?;
-        return Ok(Outcome::Clean);
+        return Ok(CommandOutcome::Clean);
     };
     let text = rules::explain(code);
     match text {
-        Some(text) => print(&text).map(|()| Outcome::Clean),
+        Some(text) => print(&text).map(|()| CommandOutcome::Clean),
         None => {
             let near = json::nearest(code, rules::all().map(|rule| rule.code));
             let near = near.map_or(String::new(), |c| format!("; did you mean `{c}`?"));

@@ -186,7 +186,7 @@ fn check_lesson(
     }))
 }
 
-/// Reads a lesson from its file, or from standard input if that stands for the file.
+/// Reads a lesson from its file, or from standard input if the path denotes it.
 fn read_lesson(request: &CheckRequest<'_>, path: &Path, models: &Models) -> Result<Lesson, String> {
     match request.stdin.filter(|(name, _)| name == path) {
         Some((name, text)) => {

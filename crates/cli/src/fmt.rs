@@ -1,7 +1,7 @@
 //! `labspec fmt`.
 
 use super::collect::{Collected, collect};
-use super::common::{Failure, ModelOptions, Outcome, interrupted};
+use super::common::{CommandOutcome, Failure, ModelOptions, interrupted};
 use super::file_check::is_other_json;
 use super::output::write_file;
 use super::output_kind::OutputKind;
@@ -30,8 +30,8 @@ pub(super) struct FmtArguments {
     check: bool,
 }
 
-pub(super) fn fmt(a: &FmtArguments) -> Result<Outcome, Failure> {
-    let mut outcome = Outcome::Clean;
+pub(super) fn fmt(a: &FmtArguments) -> Result<CommandOutcome, Failure> {
+    let mut outcome = CommandOutcome::Clean;
     let mut failures: Vec<String> = Vec::new();
     let collected = collect(&a.paths);
     collected.print_skipped();
@@ -45,7 +45,7 @@ pub(super) fn fmt(a: &FmtArguments) -> Result<Outcome, Failure> {
             Ok(None) => {}
             Ok(Some(text)) => {
                 if a.check {
-                    outcome = Outcome::Findings;
+                    outcome = CommandOutcome::Findings;
                 }
                 print(&format!("{}: {text}\n", printable_path(&path)))?;
             }
@@ -77,10 +77,10 @@ fn one(a: &FmtArguments, path: &Path, named: bool) -> Result<Option<String>, Fai
             printable_path(path)
         ));
     }
-    let of = format!("{} of {} texts", done.changed, done.total);
+    let checked_texts = format!("{} of {} texts", done.changed, done.total);
     if a.check {
-        return Ok(Some(format!("{of} would change")));
+        return Ok(Some(format!("{checked_texts} would change")));
     }
     write_file(path, OutputKind::Lesson(lesson.file.text()), &done.text)?;
-    Ok(Some(format!("{of} changed")))
+    Ok(Some(format!("{checked_texts} changed")))
 }

@@ -6,7 +6,7 @@ use super::common::Failure;
 use super::course::CourseResults;
 use super::output::write_file;
 use super::output_kind::OutputKind;
-use labspec::check::{Recording, file_name};
+use labspec::check::{ReferenceRecording, file_name};
 use labspec::report::printable_lines;
 use labspec::report::{nonfinite, printable_path, to_value};
 use labspec::source::read_text;
@@ -49,24 +49,24 @@ struct RequestedRun<'c> {
 #[derive(Default, Deserialize)]
 #[serde(default)]
 struct RecordingFile {
-    recording: Field<String>,
-    version: Field<u64>,
-    engine: Field<String>,
-    runs: Field<Vec<Field<RecordingRow>>>,
+    recording: ParsedField<String>,
+    version: ParsedField<u64>,
+    engine: ParsedField<String>,
+    runs: ParsedField<Vec<ParsedField<RecordingRow>>>,
 }
 
 /// A run in the recording.
 #[derive(Default, Deserialize)]
 #[serde(default)]
 struct RecordingRow {
-    file: Field<String>,
-    claim: Field<String>,
-    run: Field<String>,
-    hash: Field<String>,
-    values: Field<BTreeMap<String, Field<RecordedNumber>>>,
-    refused: Field<BTreeMap<String, Field<String>>>,
-    warnings: Option<Field<usize>>,
-    broke: Option<Field<String>>,
+    file: ParsedField<String>,
+    claim: ParsedField<String>,
+    run: ParsedField<String>,
+    hash: ParsedField<String>,
+    values: ParsedField<BTreeMap<String, ParsedField<RecordedNumber>>>,
+    refused: ParsedField<BTreeMap<String, ParsedField<String>>>,
+    warnings: Option<ParsedField<usize>>,
+    broke: Option<ParsedField<String>>,
 }
 
 /// A number, or the name of a value that JSON cannot represent.
@@ -80,22 +80,22 @@ enum RecordedNumber {
 /// A field of a file from another program. A wrong type is an error of this field, not of the whole file.
 #[derive(Deserialize)]
 #[serde(untagged)]
-enum Field<T> {
+enum ParsedField<T> {
     Valid(T),
     Invalid(IgnoredAny),
 }
 
-impl<T> Default for Field<T> {
-    fn default() -> Field<T> {
-        Field::Invalid(IgnoredAny)
+impl<T> Default for ParsedField<T> {
+    fn default() -> ParsedField<T> {
+        ParsedField::Invalid(IgnoredAny)
     }
 }
 
-impl<T> Field<T> {
+impl<T> ParsedField<T> {
     fn valid(&self) -> Option<&T> {
         match self {
-            Field::Valid(value) => Some(value),
-            Field::Invalid(_) => None,
+            ParsedField::Valid(value) => Some(value),
+            ParsedField::Invalid(_) => None,
         }
     }
 }
@@ -160,7 +160,7 @@ pub(super) fn write_request(file: &Path, results: &CourseResults) -> Result<(), 
 ///
 /// # Errors
 /// The file cannot be read, or is not a recording.
-pub(super) fn read(file: &Path) -> Result<Recording, Failure> {
+pub(super) fn read(file: &Path) -> Result<ReferenceRecording, Failure> {
     let no = |why: &str| {
         format!(
             "{} is not a recording of a judge: {why}; tests/judge/record.mjs makes one from the file of `--judge-request FILE`",
@@ -168,19 +168,19 @@ pub(super) fn read(file: &Path) -> Result<Recording, Failure> {
         )
     };
     let text = read_text(file, MAX_RECORDING, "a recording of a judge")?;
-    let read: Field<RecordingFile> = serde_json::from_str(&text).map_err(|e| no(&e.to_string()))?;
+    let read: ParsedField<RecordingFile> = serde_json::from_str(&text).map_err(|e| no(&e.to_string()))?;
     let expected = |f: &&RecordingFile| {
         f.recording.valid().is_some_and(|name| name == "judge") && f.version.valid() == Some(&VERSION)
     };
     let read = read.valid().filter(expected).ok_or_else(|| no("its version is missing or unsupported"))?;
     let engine = read.engine.valid().filter(|e| !e.trim().is_empty() && e.len() < 100);
     let engine = engine.ok_or_else(|| no("it does not name its engine"))?.clone();
-    let mut recording = Recording { engine, ..Recording::default() };
+    let mut recording = ReferenceRecording { engine, ..ReferenceRecording::default() };
     for (i, row) in read.runs.valid().ok_or_else(|| no("it has no runs"))?.iter().enumerate() {
         let empty = RecordingRow::default();
         let row = row.valid().unwrap_or(&empty);
-        let text = |of: &Field<String>, key: &str| {
-            of.valid().cloned().ok_or_else(|| no(&format!("run {i} has no \"{key}\"")))
+        let text = |field: &ParsedField<String>, key: &str| {
+            field.valid().cloned().ok_or_else(|| no(&format!("run {i} has no \"{key}\"")))
         };
         recording.recorded.insert([
             text(&row.file, "file")?,
@@ -197,8 +197,8 @@ pub(super) fn read(file: &Path) -> Result<Recording, Failure> {
     Ok(recording)
 }
 
-fn number(of: &RecordedNumber) -> Option<f64> {
-    match of {
+fn number(recorded: &RecordedNumber) -> Option<f64> {
+    match recorded {
         RecordedNumber::Finite(x) => Some(*x),
         RecordedNumber::Named(name) => match name.as_str() {
             "NaN" => Some(f64::NAN),

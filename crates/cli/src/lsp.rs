@@ -1,6 +1,6 @@
 //! `labspec lsp`.
 
-use super::common::{Failure, ModelOptions, Outcome};
+use super::common::{CommandOutcome, Failure, ModelOptions};
 use super::policy::{Policies, Policy, PolicyOptions};
 use super::stdio::print_error;
 use super::target::model_folder;
@@ -24,7 +24,7 @@ pub(super) struct LspArguments {
     stdio: bool,
 }
 
-pub(super) fn lsp(a: &LspArguments) -> Result<Outcome, Failure> {
+pub(super) fn lsp(a: &LspArguments) -> Result<CommandOutcome, Failure> {
     Policies::new(&a.policy)?;
     // Each problem is reported once on standard error, which editors write to their log.
     let reported = RefCell::new(BTreeSet::new());
@@ -57,8 +57,8 @@ pub(super) fn lsp(a: &LspArguments) -> Result<Outcome, Failure> {
     let course = CourseConfig { models: &models, policy: &mut policy, refresh: &refresh };
     let input = BufReader::new(std::io::stdin());
     match serve(course, input, &mut std::io::stdout().lock()) {
-        Ok(true) => Ok(Outcome::Clean),
-        Ok(false) => Ok(Outcome::Findings),
+        Ok(true) => Ok(CommandOutcome::Clean),
+        Ok(false) => Ok(CommandOutcome::Findings),
         Err(e) => Err(format!("cannot talk to the editor: {e}")),
     }
 }

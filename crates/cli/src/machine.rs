@@ -122,7 +122,7 @@ fn lesson(c: &Checked) -> LessonRow<'_> {
     LessonRow {
         file: c.lesson.file.path(),
         labs: c.labs.iter().map(lab).collect(),
-        claims: c.claims.iter().map(|of| claim(of, c)).collect(),
+        claims: c.claims.iter().map(|claim_check| claim(claim_check, c)).collect(),
         snapshots: c.snapshots.iter().map(snapshot_row).collect(),
     }
 }
@@ -147,7 +147,8 @@ struct DivergenceRow<'a> {
     #[serde(skip_serializing_if = "NonFinite::is_empty")]
     nonfinite: NonFinite,
     stored: &'a str,
-    now: &'a str,
+    #[serde(rename = "now")]
+    current: &'a str,
     tolerance: Option<f64>,
     line: usize,
 }
@@ -164,7 +165,7 @@ pub(super) fn snapshot_row(k: &SnapshotResult) -> SnapshotRow<'_> {
             time: d.time,
             nonfinite: nonfinite(&[("time", &d.time)]),
             stored: &d.stored,
-            now: &d.now,
+            current: &d.current,
             tolerance: d.tolerance,
             line: d.line,
         }),
@@ -196,12 +197,12 @@ fn lab(l: &RanLab) -> LabRow<'_> {
         runs: l.runs,
         ran: l.ran,
         broke: tried.map(|t| t.broke),
-        seconds: tried.map(|t| t.wanted),
+        seconds: tried.map(|t| t.requested),
         covered: tried.map(|t| t.covered),
         skipped: tried.map(|t| t.skipped),
         ended: tried.and_then(|t| t.ended.as_deref()),
         nonfinite: tried
-            .map_or(NonFinite::new(), |t| nonfinite(&[("seconds", &t.wanted), ("covered", &t.covered)])),
+            .map_or(NonFinite::new(), |t| nonfinite(&[("seconds", &t.requested), ("covered", &t.covered)])),
     }
 }
 

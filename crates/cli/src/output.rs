@@ -224,19 +224,19 @@ fn writable(place: &Path) -> io::Result<Option<fs::Metadata>> {
 
 /// The identity of a file: its path and, if it exists, its number in the file system.
 #[derive(Debug, PartialEq, Eq)]
-struct Identity {
+struct FileIdentity {
     place: PathBuf,
     number: Option<(u64, u64)>,
 }
 
-impl Identity {
-    fn read(path: &Path) -> io::Result<Identity> {
+impl FileIdentity {
+    fn read(path: &Path) -> io::Result<FileIdentity> {
         let place = place(path)?;
         let number = fs::metadata(&place).ok().and_then(|m| number(&m));
-        Ok(Identity { place, number })
+        Ok(FileIdentity { place, number })
     }
 
-    fn is(&self, other: &Identity) -> bool {
+    fn is(&self, other: &FileIdentity) -> bool {
         self.place == other.place || (self.number.is_some() && self.number == other.number)
     }
 }
@@ -273,17 +273,17 @@ pub(super) fn requested_outputs(outputs: &[(OutputKind<'static>, &Option<PathBuf
 /// # Errors
 /// An output would overwrite an input or another output, or cannot be written.
 pub(super) fn check_outputs_writable(read: &[PathBuf], outputs: &[PlannedOutput]) -> Result<(), Failure> {
-    let inputs: Vec<Identity> = read.iter().filter_map(|p| Identity::read(p).ok()).collect();
-    let mut written: Vec<(Identity, String)> = Vec::new();
+    let inputs: Vec<FileIdentity> = read.iter().filter_map(|p| FileIdentity::read(p).ok()).collect();
+    let mut written: Vec<(FileIdentity, String)> = Vec::new();
     // Standard output may be redirected to a file.
     #[cfg(unix)]
     if let Some(meta) = fs::metadata("/dev/stdout").ok().filter(fs::Metadata::is_file) {
-        written.push((Identity { place: PathBuf::new(), number: number(&meta) }, "the output".into()));
+        written.push((FileIdentity { place: PathBuf::new(), number: number(&meta) }, "the output".into()));
     }
     for PlannedOutput { kind, path } in outputs {
         let named = format!("{} {}", kind.option(), printable_path(path));
         let cannot = |e: io::Error| format!("cannot write {named}: {e}");
-        let identity = Identity::read(path).map_err(cannot)?;
+        let identity = FileIdentity::read(path).map_err(cannot)?;
         let old = writable(&identity.place).map_err(cannot)?;
         let is_read = old.is_some() && kind.is_input(&identity.place);
         if is_read || inputs.iter().any(|input| input.is(&identity)) {

@@ -81,8 +81,8 @@ impl OutputKind<'_> {
         match self {
             OutputKind::New => Some("a file already exists there"),
             OutputKind::Lesson(text) => {
-                let same =
-                    old.len() == text.len() as u64 && fs::read(place).is_ok_and(|now| now == text.as_bytes());
+                let same = old.len() == text.len() as u64
+                    && fs::read(place).is_ok_and(|current| current == text.as_bytes());
                 (!same).then_some("the file has changed since it was read, or is not UTF-8")
             }
             _ if self.is_input(place) => Some("it is a lesson, a model or a part of one"),
@@ -171,7 +171,7 @@ fn is_own_picture(_: &Path) -> bool {
 /// measurements are not such a table.
 fn is_table(place: &Path) -> bool {
     let Ok(file) = File::open(place) else { return false };
-    let mut rows = Rows { bytes: BufReader::new(file).bytes(), most: MAX_ROW };
+    let mut rows = CsvRows { bytes: BufReader::new(file).bytes(), most: MAX_ROW };
     let Some(Some(columns)) = rows.next_row() else { return false };
     let timed = columns.first().is_some_and(|name| name == "time")
         && columns.iter().skip(1).all(|name| is_column(name));
@@ -215,12 +215,12 @@ fn is_name(cell: &str) -> bool {
 const MAX_ROW: usize = 64 << 20;
 
 /// Iterates over the rows of comma-separated values.
-struct Rows<I> {
+struct CsvRows<I> {
     bytes: I,
     most: usize,
 }
 
-impl<I: Iterator<Item = std::io::Result<u8>>> Rows<I> {
+impl<I: Iterator<Item = std::io::Result<u8>>> CsvRows<I> {
     /// Returns the cells of the next row, `None` at the end, or `Some(None)` if the text is not comma-separated values.
     fn next_row(&mut self) -> Option<Option<Vec<String>>> {
         let (mut cells, mut cell) = (Vec::new(), Vec::new());

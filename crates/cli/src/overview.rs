@@ -56,7 +56,7 @@ fn write_lesson(text: &mut String, c: &Checked, entries: &[&Entry], with_evidenc
 /// that are true or left out.
 fn joined_entries(entries: &[&Entry]) -> usize {
     let Some(first) = entries.first() else { return 0 };
-    let is_plain = matches!(first.state, State::True(_) | State::LeftOut);
+    let is_plain = matches!(first.state, State::True(_) | State::Skipped);
     if !is_plain || matches!(first.subject, Subject::Lab | Subject::Widget | Subject::Snapshot) {
         return 1;
     }
@@ -68,16 +68,16 @@ fn joined_entries(entries: &[&Entry]) -> usize {
 fn format_entries(entry: &Entry, n: usize) -> Option<String> {
     let remark = if entry.remark.is_empty() { String::new() } else { format!(": {}", entry.remark) };
     let good = matches!(entry.state, State::True(_));
-    let left_out = entry.state == State::LeftOut;
+    let is_skipped = entry.state == State::Skipped;
     let titled = |what: &str| if what.is_empty() { String::new() } else { format!(" \"{what}\"") };
     let Entry { owner, what, word, .. } = entry;
     Some(match entry.subject {
         Subject::File => return None,
         Subject::Run if good && *word == "made" => return None,
-        Subject::Answer | Subject::Lab if left_out => format!("{word:<10} {owner}{}", titled(what)),
+        Subject::Answer | Subject::Lab if is_skipped => format!("{word:<10} {owner}{}", titled(what)),
         Subject::Model | Subject::Widget => format!("{word:<10} {owner}{remark}"),
-        Subject::Snapshot if left_out => format!("{word:<10} {owner}, its snapshot"),
-        _ if left_out => format!("{word:<10} {owner}, {}", counted(n, entry.subject.as_str())),
+        Subject::Snapshot if is_skipped => format!("{word:<10} {owner}, its snapshot"),
+        _ if is_skipped => format!("{word:<10} {owner}, {}", counted(n, entry.subject.as_str())),
         Subject::Lab => {
             let title = titled(what);
             if good {

@@ -1,6 +1,6 @@
 //! `labspec plan`.
 
-use super::common::{Failure, ModelOptions, Outcome, interrupted};
+use super::common::{CommandOutcome, Failure, ModelOptions, interrupted};
 use super::report_json::print_report;
 use super::stdio::print;
 use super::target;
@@ -38,7 +38,7 @@ enum PlanFormat {
     Json,
 }
 
-pub(super) fn plan(a: &PlanArguments) -> Result<Outcome, Failure> {
+pub(super) fn plan(a: &PlanArguments) -> Result<CommandOutcome, Failure> {
     let target = target::open(&a.lab, &a.models)?;
     let options = PlanOptions { read: a.read.clone(), run: !a.no_run };
     let report = labspec_numerics::profile::plan(&target.lab, &target.model, &target.programs, &options)
@@ -47,7 +47,7 @@ pub(super) fn plan(a: &PlanArguments) -> Result<Outcome, Failure> {
         PlanFormat::Human => print(&human(&report))?,
         PlanFormat::Json => print_report("plan", &machine(&report))?,
     }
-    Ok(Outcome::Clean)
+    Ok(CommandOutcome::Clean)
 }
 
 fn names(set: &FieldSet) -> Vec<&'static str> {
@@ -130,7 +130,7 @@ fn parts(report: &PlanReport, text: &mut String) {
         let how = if *searched { "found by the general algorithm" } else { "in closed form" };
         let _ = writeln!(text, "  keep   {n:>5}  {} and {}, {how}", shapes[0], shapes[1]);
     }
-    for (reason, n) in &pairs.left_out {
+    for (reason, n) in &pairs.excluded {
         let _ = writeln!(text, "  leave  {n:>5}  {reason}");
     }
     if let Some(seen) = pairs.seen.filter(|_| pairs.can_touch > 0) {
@@ -179,10 +179,10 @@ fn tree_algorithms(report: &PlanReport, text: &mut String) {
     let _ = writeln!(text, "\ntree algorithms");
     for algorithm in report.tree_algorithms.iter().filter(|w| w.trees != [0; 3]) {
         let [places, forces, factors] = algorithm.trees;
-        let of = [(places, "places"), (forces, "forces"), (factors, "accelerations")];
-        let of: Vec<String> =
-            of.iter().filter(|(n, _)| *n > 0).map(|(n, what)| format!("{what} of {n}")).collect();
-        let _ = writeln!(text, "  keep   {}: {}", algorithm.name, of.join(", "));
+        let parts = [(places, "places"), (forces, "forces"), (factors, "accelerations")];
+        let parts: Vec<String> =
+            parts.iter().filter(|(n, _)| *n > 0).map(|(n, what)| format!("{what} of {n}")).collect();
+        let _ = writeln!(text, "  keep   {}: {}", algorithm.name, parts.join(", "));
     }
     let idle = report.tree_algorithms.iter().filter(|w| w.trees == [0; 3]).map(|w| w.name);
     let idle = idle.collect::<Vec<_>>().join(", ");
@@ -233,21 +233,21 @@ fn readers(report: &PlanReport, text: &mut String) {
 struct PlanOutput<'a> {
     reads: Vec<&'static str>,
     writes: Vec<&'static str>,
-    stages: Vec<Stage<'a>>,
+    stages: Vec<PlanStageRow<'a>>,
     step: Option<Step>,
-    pairs: Pairs<'a>,
+    pairs: PairRow<'a>,
     sensors: &'a [SensorRow],
-    solver: Solver<'a>,
+    solver: SolverRow<'a>,
     integrators: &'a [EngineOption],
     #[serde(rename = "ways")]
-    tree_algorithms: Vec<TreeAlgorithm>,
-    readers: Vec<Reader<'a>>,
+    tree_algorithms: Vec<TreeAlgorithmRow>,
+    readers: Vec<ReaderRow<'a>>,
 }
 
 /// A stage: its share of a step, its time in ns, its work in units of the engine.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
-struct Stage<'a> {
+struct PlanStageRow<'a> {
     stage: String,
     keep: bool,
     reason: &'a str,
@@ -267,13 +267,13 @@ struct Step {
     high_ns: f64,
     full_ns: f64,
     work: f64,
-    integrator: Cost,
-    controller: Option<Cost>,
+    integrator: CostRow,
+    controller: Option<CostRow>,
 }
 
 /// A share of a step, and the time in ns.
 #[derive(Serialize)]
-struct Cost {
+struct CostRow {
     share: f64,
     ns: f64,
     /// When the lab's controller runs.
@@ -283,11 +283,12 @@ struct Cost {
 
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
-struct Pairs<'a> {
+struct PairRow<'a> {
     all: usize,
     can_touch: usize,
     tests: Vec<SearchTest<'a>>,
-    left_out: Vec<OmittedStage>,
+    #[serde(rename = "leftOut")]
+    excluded: Vec<ExcludedPairs>,
     in_reach: Option<MeanAndMaximum>,
     contacts: Option<MeanAndMaximum>,
 }
@@ -300,7 +301,7 @@ struct SearchTest<'a> {
 }
 
 #[derive(Serialize)]
-struct OmittedStage {
+struct ExcludedPairs {
     reason: &'static str,
     pairs: usize,
 }
@@ -313,7 +314,7 @@ struct MeanAndMaximum {
 }
 
 #[derive(Serialize)]
-struct Solver<'a> {
+struct SolverRow<'a> {
     cone: &'static str,
     methods: &'a [EngineOption],
     rows: Option<MeanAndMaximum>,
@@ -322,7 +323,7 @@ struct Solver<'a> {
 
 /// The number of trees that an algorithm computes.
 #[derive(Serialize)]
-struct TreeAlgorithm {
+struct TreeAlgorithmRow {
     name: &'static str,
     places: usize,
     forces: usize,
@@ -331,38 +332,38 @@ struct TreeAlgorithm {
 
 /// An additional reader: the additional time of a step in ns, and as a share of it.
 #[derive(Serialize)]
-struct Reader<'a> {
+struct ReaderRow<'a> {
     read: &'a str,
     joins: Vec<String>,
     ns: Option<f64>,
     share: Option<f64>,
 }
 
-fn cost(cost: StageCost, reason: Option<&'static str>) -> Cost {
-    Cost { share: cost.share, ns: cost.ns, reason }
+fn cost(cost: StageCost, reason: Option<&'static str>) -> CostRow {
+    CostRow { share: cost.share, ns: cost.ns, reason }
 }
 
 fn mean_and_maximum([mean, most]: [f64; 2]) -> MeanAndMaximum {
     MeanAndMaximum { mean, most }
 }
 
-fn pair_row(of: &PairSummary) -> Pairs<'_> {
-    let tests = of.tests.iter();
-    let left_out = of.left_out.iter();
-    Pairs {
-        all: of.all,
-        can_touch: of.can_touch,
+fn pair_row(summary: &PairSummary) -> PairRow<'_> {
+    let tests = summary.tests.iter();
+    let excluded = summary.excluded.iter();
+    PairRow {
+        all: summary.all,
+        can_touch: summary.can_touch,
         tests: tests
             .map(|(shapes, pairs, searched)| SearchTest { shapes, pairs: *pairs, searched: *searched })
             .collect(),
-        left_out: left_out.map(|&(reason, pairs)| OmittedStage { reason, pairs }).collect(),
-        in_reach: of.seen.map(|s| mean_and_maximum(s.in_reach)),
-        contacts: of.seen.map(|s| mean_and_maximum(s.contacts)),
+        excluded: excluded.map(|&(reason, pairs)| ExcludedPairs { reason, pairs }).collect(),
+        in_reach: summary.seen.map(|s| mean_and_maximum(s.in_reach)),
+        contacts: summary.seen.map(|s| mean_and_maximum(s.contacts)),
     }
 }
 
-fn machine(of: &PlanReport) -> PlanOutput<'_> {
-    let stages = of.rows.iter().map(|r| Stage {
+fn machine(report: &PlanReport) -> PlanOutput<'_> {
+    let stages = report.rows.iter().map(|r| PlanStageRow {
         stage: name(r.stage),
         keep: r.keep,
         reason: &r.reason,
@@ -371,7 +372,7 @@ fn machine(of: &PlanReport) -> PlanOutput<'_> {
         work: r.cost.map(|c| c.work),
         forced_ns: r.forced,
     });
-    let step = of.step.as_ref().map(|s| Step {
+    let step = report.step.as_ref().map(|s| Step {
         steps: s.steps,
         ns: s.ns,
         low_ns: s.quartiles[0],
@@ -379,33 +380,33 @@ fn machine(of: &PlanReport) -> PlanOutput<'_> {
         full_ns: s.full,
         work: s.work,
         integrator: cost(s.integrator, None),
-        controller: s.controller.map(|c| cost(c, of.controller)),
+        controller: s.controller.map(|c| cost(c, report.controller)),
     });
-    let tree_algorithms = of.tree_algorithms.iter().map(|w| {
+    let tree_algorithms = report.tree_algorithms.iter().map(|w| {
         let [places, forces, accelerations] = w.trees;
-        TreeAlgorithm { name: w.name, places, forces, accelerations }
+        TreeAlgorithmRow { name: w.name, places, forces, accelerations }
     });
-    let readers = of.readers.iter().map(|r| Reader {
+    let readers = report.readers.iter().map(|r| ReaderRow {
         read: &r.text,
         joins: r.joins.iter().map(|s| name(*s)).collect(),
         ns: r.cost,
-        share: r.cost.zip(of.step.as_ref()).map(|(more, step)| more / step.ns),
+        share: r.cost.zip(report.step.as_ref()).map(|(more, step)| more / step.ns),
     });
-    let seen = of.pairs.seen;
+    let seen = report.pairs.seen;
     PlanOutput {
-        reads: names(&of.access.reads),
-        writes: names(&of.access.writes),
+        reads: names(&report.access.reads),
+        writes: names(&report.access.writes),
         stages: stages.collect(),
         step,
-        pairs: pair_row(&of.pairs),
-        sensors: &of.sensors,
-        solver: Solver {
-            cone: of.cone,
-            methods: &of.solvers,
+        pairs: pair_row(&report.pairs),
+        sensors: &report.sensors,
+        solver: SolverRow {
+            cone: report.cone,
+            methods: &report.solvers,
             rows: seen.map(|s| mean_and_maximum(s.rows)),
             iterations: seen.map(|s| mean_and_maximum(s.iterations)),
         },
-        integrators: &of.integrators,
+        integrators: &report.integrators,
         tree_algorithms: tree_algorithms.collect(),
         readers: readers.collect(),
     }

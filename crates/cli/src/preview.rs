@@ -2,7 +2,7 @@
 
 use super::build::PageOptions;
 use super::cache::Cache;
-use super::common::{Failure, ModelOptions, Outcome};
+use super::common::{CommandOutcome, Failure, ModelOptions};
 use super::course::{CheckRequest, CrossCheckRequest};
 use super::output::write_file;
 use super::output_kind::OutputKind;
@@ -51,7 +51,7 @@ pub(super) struct PreviewArguments {
 }
 
 /// Serves the lessons until Ctrl-C.
-pub(super) fn preview(a: &PreviewArguments) -> Result<Outcome, Failure> {
+pub(super) fn preview(a: &PreviewArguments) -> Result<CommandOutcome, Failure> {
     let page_files = a.page.files()?;
     Policies::new(&a.policy)?;
     let folder = match a.path.is_dir() {
@@ -69,7 +69,7 @@ pub(super) fn preview(a: &PreviewArguments) -> Result<Outcome, Failure> {
         }
     };
     serve(&author, &folder, &options, &page_files, &mut ready)?;
-    Ok(Outcome::Clean)
+    Ok(CommandOutcome::Clean)
 }
 
 /// Opens an address with the program of the system. The address is printed as well, so that a failure costs nothing.

@@ -27,7 +27,7 @@ struct VersionedReport<'a, T> {
 /// The head of a file.
 #[derive(Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
-struct Head {
+struct ReportHead {
     schema_version: Value,
     report: Value,
 }
@@ -64,7 +64,7 @@ pub(super) fn read_report<T: DeserializeOwned>(path: &Path, stored: &StoredRepor
         |e: serde_json::Error| no(&printable(&e.to_string().chars().take(MOST_QUOTED).collect::<String>()));
     let text = read_text(path, MAX_REPORT, stored.what)?;
     // The head is parsed first, because the content depends on the version.
-    let head: Head = serde_json::from_str(&text).map_err(invalid)?;
+    let head: ReportHead = serde_json::from_str(&text).map_err(invalid)?;
     if head.report != stored.name || head.schema_version != SCHEMA_VERSION {
         return Err(no("its version is missing or unsupported"));
     }

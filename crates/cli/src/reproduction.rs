@@ -28,7 +28,7 @@ const STORED: StoredReport = StoredReport {
 
 /// The results of a check, and their basis.
 #[derive(Debug, Serialize, Deserialize)]
-pub(super) struct Record {
+pub(super) struct ReproductionRecord {
     pub(super) labspec: String,
     pub(super) format: String,
     pub(super) engine: String,
@@ -109,14 +109,14 @@ pub(super) struct VerdictRecord {
 }
 
 /// The record of the current check, as it would be written to this file.
-pub(super) fn now(file: &Path, results: &CourseResults) -> Record {
+pub(super) fn current(file: &Path, results: &CourseResults) -> ReproductionRecord {
     let folder = folder_of(file);
     let both = results.checked.iter().zip(&results.bases);
     let mut lessons: Vec<LessonRecord> = both
         .map(|(c, basis)| lesson(name_of(&folder, c.lesson.file.path()), c, basis, &results.ledger))
         .collect();
     lessons.sort_by(|a, b| a.file.cmp(&b.file));
-    Record {
+    ReproductionRecord {
         labspec: env!("CARGO_PKG_VERSION").into(),
         format: FORMAT.into(),
         engine: ENGINE.into(),
@@ -128,7 +128,7 @@ pub(super) fn now(file: &Path, results: &CourseResults) -> Record {
 ///
 /// # Errors
 /// The file cannot be written.
-pub(super) fn write(file: &Path, record: &Record) -> Result<(), Failure> {
+pub(super) fn write(file: &Path, record: &ReproductionRecord) -> Result<(), Failure> {
     write_report(file, &STORED, record)
 }
 
@@ -136,7 +136,7 @@ pub(super) fn write(file: &Path, record: &Record) -> Result<(), Failure> {
 ///
 /// # Errors
 /// The file cannot be read, or is not a record.
-pub(super) fn read(file: &Path) -> Result<Record, Failure> {
+pub(super) fn read(file: &Path) -> Result<ReproductionRecord, Failure> {
     read_report(file, &STORED)
 }
 
@@ -188,7 +188,7 @@ fn settings(s: &RunSettings) -> SettingsRecord {
         iterations: s.iterations,
         tolerance: finite(s.tolerance),
         options: numbers(&s.options),
-        contacts: s.contacts.iter().map(|(geom, of)| (geom.clone(), numbers(of))).collect(),
+        contacts: s.contacts.iter().map(|(geom, values)| (geom.clone(), numbers(values))).collect(),
         nonfinite: nonfinite(&[("timestep", &s.timestep), ("tolerance", &s.tolerance)]),
     }
 }

@@ -1,6 +1,6 @@
 //! `labspec run`.
 
-use super::common::{Failure, Outcome};
+use super::common::{CommandOutcome, Failure};
 use super::lab_args::LabArguments;
 use super::output::write_file;
 use super::output::{PlannedOutput, requested_outputs, write_png, write_with};
@@ -61,7 +61,7 @@ enum RunFormat {
     Csv,
 }
 
-pub(super) fn run(a: &RunArguments) -> Result<Outcome, Failure> {
+pub(super) fn run(a: &RunArguments) -> Result<CommandOutcome, Failure> {
     let target = a.handled.open()?;
     let options = RunOptions {
         until: a.until,
@@ -104,7 +104,7 @@ pub(super) fn run(a: &RunArguments) -> Result<Outcome, Failure> {
         RunFormat::Csv => stream(|out| table.write_csv(out))?,
     }
     let clean = table.errors.is_empty() && table.warnings.is_empty() && table.breakdowns.is_empty();
-    Ok(if clean { Outcome::Clean } else { Outcome::Findings })
+    Ok(if clean { CommandOutcome::Clean } else { CommandOutcome::Findings })
 }
 
 /// The output at the end of the run: readouts, traces of labs without readouts, warnings.

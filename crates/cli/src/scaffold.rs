@@ -1,6 +1,6 @@
 //! `labspec scaffold`.
 
-use super::common::{Failure, ModelOptions, Outcome, interrupted};
+use super::common::{CommandOutcome, Failure, ModelOptions, interrupted};
 use super::output::write_file;
 use super::output_kind::OutputKind;
 use super::report_json::print_report;
@@ -39,7 +39,7 @@ enum ScaffoldFormat {
     Json,
 }
 
-pub(super) fn scaffold(a: &ScaffoldArguments) -> Result<Outcome, Failure> {
+pub(super) fn scaffold(a: &ScaffoldArguments) -> Result<CommandOutcome, Failure> {
     let folder = model_folder(&a.models, &a.lesson)?;
     let lesson = load_lesson_file(&a.lesson, &folder)?;
     let models = Models::new(folder.clone());
@@ -47,7 +47,7 @@ pub(super) fn scaffold(a: &ScaffoldArguments) -> Result<Outcome, Failure> {
     let all = look(&lesson, &models, &mut |text| progress.report(text));
     drop(progress);
     if interrupted() {
-        return Ok(Outcome::Clean);
+        return Ok(CommandOutcome::Clean);
     }
     let proposals = all.iter().filter(|one| matches!(one.found, ScaffoldOutcome::Proposed { .. })).count();
     if a.write && proposals > 0 {
@@ -67,7 +67,7 @@ pub(super) fn scaffold(a: &ScaffoldArguments) -> Result<Outcome, Failure> {
         ScaffoldFormat::Json => print_report("scaffold", &machine(&lesson, &all))?,
     }
     let done = |one: &Scaffold| matches!(&one.found, ScaffoldOutcome::Proposed { verdict, .. } if is_confirmed(verdict));
-    Ok(if all.iter().all(done) { Outcome::Clean } else { Outcome::Findings })
+    Ok(if all.iter().all(done) { CommandOutcome::Clean } else { CommandOutcome::Findings })
 }
 
 /// Whether a proposal is true.

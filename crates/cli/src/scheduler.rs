@@ -31,7 +31,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// A file with everything that its check needs.
-struct Job {
+struct CheckJob {
     file: ListedFile,
     task: FileTask,
     policy: Policy,
@@ -44,12 +44,12 @@ pub(super) fn check_lessons(request: &CheckRequest<'_>, cache: &Cache) -> Result
 
 /// As [`check_lessons`], with another hash for the files of models.
 fn check_with_hash(request: &CheckRequest<'_>, cache: &Cache, hash: Hash) -> Result<CourseResults, Failure> {
-    let Collected { files, problems, left_out } = select_files(request)?;
+    let Collected { files, problems, skipped } = select_files(request)?;
     let mut policies = Policies::default();
     let (jobs, mut models) = plan_jobs(request, files, hash, &mut policies)?;
     let outcomes = check_files(request, cache, &jobs, &models)?;
     let (mut results, mut files) = collect_outcomes(request, &jobs, outcomes, problems)?;
-    files.left_out = left_out;
+    files.skipped = skipped;
     add_course_findings(request, &jobs, &mut models, &mut results);
     apply_policies(request, &mut policies, &mut results)?;
     results.ledger = build_ledger(&results, &files, &mut policies)?;
@@ -84,12 +84,12 @@ fn plan_jobs(
     files: Vec<ListedFile>,
     hash: Hash,
     policies: &mut Policies,
-) -> Result<(Vec<Job>, Vec<Models>), Failure> {
+) -> Result<(Vec<CheckJob>, Vec<Models>), Failure> {
     let (tasks, models) = plan_tasks(request, &files, hash)?;
     *policies = Policies::new(request.policy)?;
     let jobs = files.into_iter().zip(tasks).map(|(file, task)| {
         let policy = policies.policy_for(&file.0)?;
-        Ok(Job { file, task, policy })
+        Ok(CheckJob { file, task, policy })
     });
     Ok((jobs.collect::<Result<_, Failure>>()?, models))
 }
@@ -101,7 +101,7 @@ fn plan_jobs(
 fn check_files(
     request: &CheckRequest<'_>,
     cache: &Cache,
-    jobs: &[Job],
+    jobs: &[CheckJob],
     models: &[Models],
 ) -> Result<Vec<FileOutcome>, Failure> {
     let printer = OrderedPrinter::new(request.progress);
@@ -143,7 +143,7 @@ fn findings_text(outcome: &FileOutcome, color: bool) -> String {
 /// No file could be read.
 fn collect_outcomes(
     request: &CheckRequest<'_>,
-    jobs: &[Job],
+    jobs: &[CheckJob],
     outcomes: Vec<FileOutcome>,
     problems: Vec<UnreadFile>,
 ) -> Result<(CourseResults, FileOutcomes), Failure> {
@@ -152,7 +152,7 @@ fn collect_outcomes(
     let mut files = FileOutcomes::default();
     let mut refused: Vec<UnreadFile> = problems;
     let mut readable = 0;
-    for (Job { file: (path, _), .. }, outcome) in jobs.iter().zip(outcomes) {
+    for (CheckJob { file: (path, _), .. }, outcome) in jobs.iter().zip(outcomes) {
         results.dependencies.insert(path.clone());
         readable += usize::from(!matches!(outcome, FileOutcome::Refused(_)));
         match outcome {
@@ -190,7 +190,7 @@ fn collect_outcomes(
 /// files on which they depend.
 fn add_course_findings(
     request: &CheckRequest<'_>,
-    jobs: &[Job],
+    jobs: &[CheckJob],
     models: &mut [Models],
     results: &mut CourseResults,
 ) {

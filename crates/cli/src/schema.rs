@@ -1,6 +1,6 @@
 //! `labspec schema`.
 
-use super::common::{Failure, Outcome};
+use super::common::{CommandOutcome, Failure};
 use super::stdio::print;
 use clap::ValueEnum;
 use labspec::spec::format;
@@ -23,11 +23,11 @@ enum Of {
     Lesson,
 }
 
-pub(super) fn schema(a: &SchemaArguments) -> Result<Outcome, Failure> {
+pub(super) fn schema(a: &SchemaArguments) -> Result<CommandOutcome, Failure> {
     let root = match a.of {
         Of::Lab => format::Root::Lab,
         Of::Quiz => format::Root::Quiz,
         Of::Lesson => format::Root::Lesson,
     };
-    print(&labspec::reference::schema(root)).map(|()| Outcome::Clean)
+    print(&labspec::reference::schema(root)).map(|()| CommandOutcome::Clean)
 }

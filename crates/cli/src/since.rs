@@ -2,7 +2,7 @@
 //! models that changed with them.
 
 use super::report_json::NonFinite;
-use super::reproduction::{ClaimRecord, LessonRecord, Record, SettingsRecord};
+use super::reproduction::{ClaimRecord, LessonRecord, ReproductionRecord, SettingsRecord};
 use labspec::report::printable;
 use labspec::verify::significant;
 use serde::Serialize;
@@ -30,24 +30,25 @@ struct ChangedValue {
     /// `null` if it did not exist.
     before: Value,
     /// `null` if it does not exist any more.
-    now: Value,
+    #[serde(rename = "now")]
+    current: Value,
     /// The difference of a number, in its unit.
     difference: Option<f64>,
 }
 
 /// All differences, in the order of the files.
-pub(super) fn changes(before: &Record, now: &Record) -> Vec<LessonChange> {
+pub(super) fn changes(before: &ReproductionRecord, current: &ReproductionRecord) -> Vec<LessonChange> {
     let change = |file: &str, owner: &str, effects: Vec<ChangedValue>, causes: Vec<ChangedValue>| {
         LessonChange { file: file.into(), owner: owner.into(), effects, causes }
     };
     let mut causes = Vec::new();
-    differ("labspec", &*before.labspec, &*now.labspec, &mut causes);
-    differ("format", &*before.format, &*now.format, &mut causes);
-    differ("engine", &*before.engine, &*now.engine, &mut causes);
+    differ("labspec", &*before.labspec, &*current.labspec, &mut causes);
+    differ("format", &*before.format, &*current.format, &mut causes);
+    differ("engine", &*before.engine, &*current.engine, &mut causes);
     let mut all = vec![change("", "labspec", Vec::new(), causes)];
-    let files: BTreeSet<&String> = before.lessons.iter().chain(&now.lessons).map(|l| &l.file).collect();
+    let files: BTreeSet<&String> = before.lessons.iter().chain(&current.lessons).map(|l| &l.file).collect();
     for file in files {
-        let what = match [before, now].map(|record| record.lessons.iter().find(|l| l.file == *file)) {
+        let what = match [before, current].map(|record| record.lessons.iter().find(|l| l.file == *file)) {
             [Some(old), Some(new)] => {
                 for owner in owners(old).union(&owners(new)) {
                     let (effects, causes) = (effects(owner, old, new), causes_of(owner, old, new));
@@ -59,7 +60,7 @@ pub(super) fn changes(before: &Record, now: &Record) -> Vec<LessonChange> {
             _ => "lesson that was not checked, or no longer exists",
         };
         let step =
-            ChangedValue { what: what.into(), before: Value::Null, now: Value::Null, difference: None };
+            ChangedValue { what: what.into(), before: Value::Null, current: Value::Null, difference: None };
         all.push(change(file, "", vec![step], Vec::new()));
     }
     all.retain(|change| !change.effects.is_empty() || !change.causes.is_empty());
@@ -99,8 +100,8 @@ fn effects(owner: &str, old: &LessonRecord, new: &LessonRecord) -> Vec<ChangedVa
     differ_each(&x, &y, |name| name.to_string(), |_| Value::Null, &mut steps);
     let [x, y] = [a, b].map(|c| c.map_or(&[][..], |c| c.quotes.as_slice()));
     for (x, y) in x.iter().zip(y).filter(|(x, y)| x.text == y.text) {
-        let [before, now] = [x, y].map(|q| number(q.computed, &q.nonfinite, "computed"));
-        differ(&format!("what \"{}\" quotes", x.text), before, now, &mut steps);
+        let [before, current] = [x, y].map(|q| number(q.computed, &q.nonfinite, "computed"));
+        differ(&format!("what \"{}\" quotes", x.text), before, current, &mut steps);
     }
     steps
 }
@@ -136,8 +137,8 @@ fn causes_of(owner: &str, old: &LessonRecord, new: &LessonRecord) -> Vec<Changed
     }
     let runs = [a, b].map(|c| c.map_or(&[][..], |c| c.runs.as_slice()));
     for name in runs.into_iter().flatten().map(|run| &run.name).collect::<BTreeSet<_>>() {
-        let [before, now] = runs.map(|all| all.iter().find(|run| run.name == *name)?.settings.as_ref());
-        settings(&format!(" of the run {name}"), before, now, x != y, &mut steps);
+        let [before, current] = runs.map(|all| all.iter().find(|run| run.name == *name)?.settings.as_ref());
+        settings(&format!(" of the run {name}"), before, current, x != y, &mut steps);
     }
     steps
 }
@@ -156,7 +157,7 @@ fn parameters(s: Option<&SettingsRecord>) -> BTreeMap<(Option<&str>, &str), Valu
     let contacts = s
         .into_iter()
         .flat_map(|s| &s.contacts)
-        .flat_map(|(geom, of)| of.iter().map(move |(name, value)| ((Some(&**geom), &**name), value)));
+        .flat_map(|(geom, values)| values.iter().map(move |(name, value)| ((Some(&**geom), &**name), value)));
     options.chain(contacts).map(|(at, value)| (at, value.as_slice().into())).collect()
 }
 
@@ -197,16 +198,16 @@ fn differ_each<K: Ord>(
     steps: &mut Vec<ChangedValue>,
 ) {
     for key in a.keys().chain(b.keys()).collect::<BTreeSet<_>>() {
-        let [before, now] = [a, b].map(|all| all.get(key).cloned().unwrap_or_else(|| missing(key)));
-        differ(&in_words(key), before, now, steps);
+        let [before, current] = [a, b].map(|all| all.get(key).cloned().unwrap_or_else(|| missing(key)));
+        differ(&in_words(key), before, current, steps);
     }
 }
 
-fn differ(what: &str, before: impl Into<Value>, now: impl Into<Value>, steps: &mut Vec<ChangedValue>) {
-    let (before, now) = (before.into(), now.into());
-    if before != now {
-        let difference = now.as_f64().zip(before.as_f64()).map(|(now, before)| now - before);
-        steps.push(ChangedValue { what: what.into(), before, now, difference });
+fn differ(what: &str, before: impl Into<Value>, current: impl Into<Value>, steps: &mut Vec<ChangedValue>) {
+    let (before, current) = (before.into(), current.into());
+    if before != current {
+        let difference = current.as_f64().zip(before.as_f64()).map(|(current, before)| current - before);
+        steps.push(ChangedValue { what: what.into(), before, current, difference });
     }
 }
 
@@ -252,7 +253,7 @@ fn line(step: &ChangedValue) -> String {
     let by = step
         .difference
         .map_or(String::new(), |d| format!(" ({}{})", if d > 0.0 { "+" } else { "" }, significant(d)));
-    match (&step.before, &step.now) {
+    match (&step.before, &step.current) {
         (Value::Null, Value::Null) => step.what.clone(),
         (a, b) if digest(a) && digest(b) => format!("{}: changed", step.what),
         (a, b) => format!("{}: {} → {}{by}", step.what, format_value(a), format_value(b)),

@@ -1,7 +1,7 @@
 //! `labspec snapshot`: the output of the labs of lessons, stored in files next to the lessons, and the review of changes.
 
 use super::collect::{Collected, collect, orphaned_snapshots};
-use super::common::{Failure, ModelOptions, Outcome, interrupted};
+use super::common::{CommandOutcome, Failure, ModelOptions, interrupted};
 use super::file_check::is_other_json;
 use super::machine::{SnapshotRow, snapshot_row};
 use super::output::{remove_file, write_file};
@@ -87,13 +87,13 @@ struct ReviewedSnapshot {
     written: bool,
 }
 
-pub(super) fn snapshot(a: &SnapshotArguments) -> Result<Outcome, Failure> {
+pub(super) fn snapshot(a: &SnapshotArguments) -> Result<CommandOutcome, Failure> {
     let terminal = std::io::stdin().is_terminal() && std::io::stdout().is_terminal();
     let asks = a.review && a.format == SnapshotFormat::Human && terminal;
     let mut all = collect_lessons(a)?;
     for one in &mut all {
         if interrupted() {
-            return Ok(Outcome::Findings);
+            return Ok(CommandOutcome::Findings);
         }
         // A new snapshot overwrites nothing.
         let whole = a.accept || (one.standing == SnapshotStatus::New && !a.review);
@@ -118,7 +118,7 @@ pub(super) fn snapshot(a: &SnapshotArguments) -> Result<Outcome, Failure> {
     };
     let unread = |one: &ReviewedSnapshot| one.standing == SnapshotStatus::Unreadable && !one.written;
     let bad = all.iter().any(|one| open(one) || unread(one));
-    Ok(if bad { Outcome::Findings } else { Outcome::Clean })
+    Ok(if bad { CommandOutcome::Findings } else { CommandOutcome::Clean })
 }
 
 /// Reads every lesson, runs its labs, and compares the output with the snapshots.
@@ -314,11 +314,11 @@ struct FileRow<'a> {
     standing: &'static str,
     written: bool,
     fault: Option<&'a str>,
-    labs: Vec<LabRow<'a>>,
+    labs: Vec<SnapshotLabRow<'a>>,
 }
 
 #[derive(Serialize)]
-struct LabRow<'a> {
+struct SnapshotLabRow<'a> {
     #[serde(flatten)]
     snapshot: SnapshotRow<'a>,
     accepted: bool,
@@ -335,8 +335,8 @@ fn machine(all: &[ReviewedSnapshot]) -> SnapshotReport<'_> {
     SnapshotReport { files: files.collect() }
 }
 
-fn lab_row<'a>(result: &'a SnapshotResult, one: &ReviewedSnapshot) -> LabRow<'a> {
-    LabRow { snapshot: snapshot_row(result), accepted: one.accepted.contains(&result.lab) }
+fn lab_row<'a>(result: &'a SnapshotResult, one: &ReviewedSnapshot) -> SnapshotLabRow<'a> {
+    SnapshotLabRow { snapshot: snapshot_row(result), accepted: one.accepted.contains(&result.lab) }
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! `labspec trace`.
 
-use super::common::{Failure, ModelOptions, Outcome, interrupted};
+use super::common::{CommandOutcome, Failure, ModelOptions, interrupted};
 use super::report_json::print_report;
 use super::stdio::{Progress, print};
 use super::target::model_folder;
@@ -10,7 +10,9 @@ use labspec::lint::load_lesson_file;
 use labspec::report::{printable, printable_lines, printable_path};
 use labspec::spec::Lesson;
 use labspec::verify::significant;
-use labspec_proposals::trace::{self, Hit, Origin, ProposedVerify, Traced, Traces, blocks, format_verify};
+use labspec_proposals::trace::{
+    self, MeasureMatch, Origin, ProposedVerify, Traced, Traces, blocks, format_verify,
+};
 use serde::Serialize;
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -33,7 +35,7 @@ enum TraceFormat {
     Json,
 }
 
-pub(super) fn trace(a: &TraceArguments) -> Result<Outcome, Failure> {
+pub(super) fn trace(a: &TraceArguments) -> Result<CommandOutcome, Failure> {
     let folder = model_folder(&a.models, &a.lesson)?;
     let lesson = load_lesson_file(&a.lesson, &folder)?;
     let models = Models::new(folder);
@@ -41,18 +43,18 @@ pub(super) fn trace(a: &TraceArguments) -> Result<Outcome, Failure> {
     let found = trace::trace(&lesson, &models, &mut |text| progress.report(text));
     drop(progress);
     if interrupted() {
-        return Ok(Outcome::Clean);
+        return Ok(CommandOutcome::Clean);
     }
     match a.format {
         TraceFormat::Human => print(&human(a, &lesson, &found))?,
         TraceFormat::Json => print_report("trace", &machine(&lesson, &found))?,
     }
     let traced = |n: &Traced| matches!(n.origin, Origin::Claimed | Origin::From(_) | Origin::Setting(_));
-    Ok(if found.numbers.iter().all(traced) { Outcome::Clean } else { Outcome::Findings })
+    Ok(if found.numbers.iter().all(traced) { CommandOutcome::Clean } else { CommandOutcome::Findings })
 }
 
 /// The origin of a hit in words.
-fn place(found: &Traces<'_>, hit: &Hit) -> String {
+fn place(found: &Traces<'_>, hit: &MeasureMatch) -> String {
     match hit.place.and_then(|(lab, trial)| found.run(lab, trial)) {
         Some((address, words)) => format!("lab {address} {words}"),
         None => "worked out".to_string(),

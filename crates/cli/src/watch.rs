@@ -1,7 +1,7 @@
 //! Detects changes of files by their sizes and times.
 
 use super::collect::collect;
-use super::common::{Failure, Outcome, interrupted};
+use super::common::{CommandOutcome, Failure, interrupted};
 use super::policy;
 use super::stdio::print_error;
 use labspec::lint;
@@ -21,8 +21,8 @@ pub(super) type Stamp = Option<(u64, SystemTime)>;
 pub(super) fn watch(
     paths: &[PathBuf],
     settings: &[&Path],
-    mut check: impl FnMut() -> Result<(Result<Outcome, Failure>, BTreeSet<PathBuf>), Failure>,
-) -> Result<Outcome, Failure> {
+    mut check: impl FnMut() -> Result<(Result<CommandOutcome, Failure>, BTreeSet<PathBuf>), Failure>,
+) -> Result<CommandOutcome, Failure> {
     let mut also: BTreeSet<PathBuf> = settings.iter().map(|path| path.to_path_buf()).collect();
     loop {
         // Recorded before the check, so that a change during the check triggers another one.

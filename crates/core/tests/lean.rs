@@ -200,8 +200,8 @@ fn a_full_build_records_models_and_their_results() {
     for (name, text) in SHARED {
         let mut m = compile(text);
         std::fs::write(left(name).with_extension("model"), m.to_bytes()).unwrap();
-        let apart: Vec<[u64; 7]> = distances(&m).into_iter().map(Result::unwrap).collect();
-        std::fs::write(left(name).with_extension("distances"), bytes(apart.as_flattened())).unwrap();
+        let measured: Vec<[u64; 7]> = distances(&m).into_iter().map(Result::unwrap).collect();
+        std::fs::write(left(name).with_extension("distances"), bytes(measured.as_flattened())).unwrap();
         let (history, contacts) = history(&mut m);
         assert_eq!(contacts > 0, name != "distances" && name != "parts of one body", "{name}");
         std::fs::write(left(name).with_extension("history"), bytes(&history)).unwrap();

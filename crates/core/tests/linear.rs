@@ -26,8 +26,8 @@ fn largest<'a>(list: impl IntoIterator<Item = &'a f64>) -> f64 {
 
 fn near(ours: &DMatrix<f64>, theirs: &DMatrix<f64>, tolerance: f64, what: &str) {
     assert_eq!(ours.shape(), theirs.shape(), "{what}");
-    let apart = largest(&(ours - theirs));
-    assert!(apart <= tolerance, "{what} differs by {apart:e}:\n{ours}{theirs}");
+    let difference = largest(&(ours - theirs));
+    assert!(difference <= tolerance, "{what} differs by {difference:e}:\n{ours}{theirs}");
 }
 
 /// A free body, a ball joint on a hinge, and a slide: every kind of joint, rotated and moving.
@@ -113,9 +113,9 @@ fn linearizations_are_those_of_mujoco() {
                 let sign = if key == "d_centered" { -1.0 } else { 1.0 };
                 let theirs = recorded(&key, shape.0, shape.1) * sign;
                 for (row, value) in data.sensordata.iter().enumerate() {
-                    let apart = largest(&(matrix.row(row) - theirs.row(row)));
+                    let difference = largest(&(matrix.row(row) - theirs.row(row)));
                     let tolerance = 1e-6 + 2.0 * f64::EPSILON * value.abs() / eps;
-                    assert!(apart <= tolerance, "{name}: {key}, row {row} differs by {apart:e}");
+                    assert!(difference <= tolerance, "{name}: {key}, row {row} differs by {difference:e}");
                 }
                 println!("{name} {key}: {:.1e}", largest(&(matrix - theirs)));
             }
@@ -388,14 +388,14 @@ fn omitted_fields_are_errors_and_kept_fields_are_equal() {
     let mut access = AccessSet { reads: Default::default(), writes: Default::default() };
     access.reads.insert(reflect::field(reflect::Object::Data, "qpos").unwrap());
     let planned = Data::planned(&model, Plan::new(&model, &access));
-    let left_out = |e: Error| assert!(matches!(e, Error::LeftOut { .. }), "{e}");
-    left_out(planned.body_pose(&model.bodies().next().unwrap()).unwrap_err());
-    left_out(planned.field_matrix("xpos").unwrap_err());
-    left_out(algebra::full_m(&model, &planned).unwrap_err());
-    left_out(algebra::jac_body(&model, &planned, "world").unwrap_err());
-    left_out(algebra::body_velocity(&model, &planned, "world", false).unwrap_err());
+    let assert_omitted = |e: Error| assert!(matches!(e, Error::LeftOut { .. }), "{e}");
+    assert_omitted(planned.body_pose(&model.bodies().next().unwrap()).unwrap_err());
+    assert_omitted(planned.field_matrix("xpos").unwrap_err());
+    assert_omitted(algebra::full_m(&model, &planned).unwrap_err());
+    assert_omitted(algebra::jac_body(&model, &planned, "world").unwrap_err());
+    assert_omitted(algebra::body_velocity(&model, &planned, "world", false).unwrap_err());
     let all = FiniteDifferences { sensors: true, ..FiniteDifferences::default() };
-    left_out(transition_fd(&model, &planned, &all).unwrap_err());
+    assert_omitted(transition_fd(&model, &planned, &all).unwrap_err());
     let how = FiniteDifferences::default();
     let full = transition_fd(&model, &Data::new(&model), &how).unwrap();
     assert_eq!(transition_fd(&model, &planned, &how).unwrap(), full);

@@ -13,7 +13,7 @@ use std::time::Instant;
 
 /// The options of the measurement.
 #[derive(clap::Args, Clone, Debug)]
-pub struct Options {
+pub struct BenchOptions {
     /// Steps of each repetition
     #[arg(long, value_name = "N", default_value_t = 20_000)]
     pub steps: usize,
@@ -75,7 +75,7 @@ fn specialized_algorithm() -> impl TypedValueParser<Value = TreeAlgorithm> {
 
 /// Measures the steps of a lab, or of a model as a lab without displays. Ctrl-C ends the measurement after the
 /// last completed repetition.
-pub fn measure_steps(lab: &Lab, model: &Model, programs: &Programs, options: &Options) -> StepTime {
+pub fn measure_steps(lab: &Lab, model: &Model, programs: &Programs, options: &BenchOptions) -> StepTime {
     let reads = if options.full { FieldSet::ALL } else { programs.access.reads };
     let access = AccessSet { reads, ..programs.access };
     let algorithms = options.without.iter().fold(TreeAlgorithms::ALL, |all, &one| all.without(one));

@@ -13,7 +13,7 @@ use std::path::PathBuf;
 
 /// The options of the recording.
 #[derive(clap::Args, Clone, Debug)]
-pub struct Options {
+pub struct RecordOptions {
     /// A recording with the states to use
     #[arg(long, value_name = "ORACLE.json")]
     pub states: PathBuf,
@@ -33,7 +33,7 @@ pub struct Options {
 
 /// The values of this engine.
 #[derive(Clone, Debug, Serialize)]
-pub struct Recording {
+pub struct EngineRecording {
     /// The program that computed it.
     pub version: &'static str,
     /// The sizes of the model that the MuJoCo recording contains.
@@ -62,7 +62,7 @@ const STATE: [&str; 6] = ["qpos", "qvel", "act", "ctrl", "mocap_pos", "mocap_qua
 ///
 /// # Errors
 /// The recording cannot be read or is for another model, an option does not exist, or the result is too long.
-pub fn record(mut m: Model, options: &Options) -> Result<Recording, String> {
+pub fn record(mut m: Model, options: &RecordOptions) -> Result<EngineRecording, String> {
     let mut scratch = Data::new(&m);
     for option in &options.option {
         set_option(&mut m, &mut scratch, option)?;
@@ -81,7 +81,7 @@ pub fn record(mut m: Model, options: &Options) -> Result<Recording, String> {
     let trajectory = trajectory_rows(options, &m, &mut d)?;
     let warnings = Warning::ALL.iter().zip(&d.warning).filter(|(_, stat)| stat.number > 0);
     let warnings = warnings.map(|(w, stat)| (w.name().to_string(), Numbers::Count(stat.number)));
-    Ok(Recording {
+    Ok(EngineRecording {
         version: concat!("labspec ", env!("CARGO_PKG_VERSION")),
         sizes,
         names: NumberFields::default(),
@@ -93,14 +93,14 @@ pub fn record(mut m: Model, options: &Options) -> Result<Recording, String> {
 }
 
 /// Reads the MuJoCo recording.
-fn read_oracle(options: &Options) -> Result<Value, String> {
+fn read_oracle(options: &RecordOptions) -> Result<Value, String> {
     let text = read_text(&options.states, MAX_RECORDING, "a recording")?;
     serde_json::from_str(&text).map_err(|e| format!("{} is not JSON: {e}", printable_path(&options.states)))
 }
 
 /// # Errors
 /// The trajectory has too many steps or numbers.
-fn check_length(options: &Options, m: &Model) -> Result<(), String> {
+fn check_length(options: &RecordOptions, m: &Model) -> Result<(), String> {
     let every = options.every.max(1);
     let rows = (options.steps / every).saturating_add(1);
     if options.steps > MAX_STEPS || rows.saturating_mul(m.nq + m.nv + m.na + 3) > MAX_NUMBERS {
@@ -114,7 +114,7 @@ fn check_length(options: &Options, m: &Model) -> Result<(), String> {
 
 /// Computes the arrays that the recording contains for each of its states.
 fn forward_rows(
-    options: &Options,
+    options: &RecordOptions,
     oracle: &Value,
     m: &mut Model,
     d: &mut Data,
@@ -150,7 +150,7 @@ fn forward_rows(
 }
 
 /// The state of a run after every `every` steps.
-fn trajectory_rows(options: &Options, m: &Model, d: &mut Data) -> Result<Vec<NumberFields>, String> {
+fn trajectory_rows(options: &RecordOptions, m: &Model, d: &mut Data) -> Result<Vec<NumberFields>, String> {
     start(m, d)?;
     let mut rows = Vec::new();
     for i in 0..=options.steps {

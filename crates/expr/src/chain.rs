@@ -8,7 +8,7 @@ use crate::types::{CollectionId, FunctionId, ObjectId, Type};
 use labspec_finding::Span;
 use labspec_finding::order;
 
-/// Limit on the aliases that are followed (a variable that stands for another one).
+/// Limit on the number of aliases that are resolved (variables that refer to other variables).
 const MAX_ALIASES: usize = 8;
 /// Limit on the number of links of a chain.
 const MAX_LINKS: usize = 32;

@@ -197,7 +197,7 @@ impl Columnar {
         recording: &Recording,
         start: usize,
     ) {
-        let of = |at: u32| &before[at as usize];
+        let column = |at: u32| &before[at as usize];
         match self.formula.steps[i] {
             FormulaStep::Constant(_) | FormulaStep::Input(_) => {}
             FormulaStep::Load(..) => {
@@ -206,21 +206,22 @@ impl Columnar {
                 let n = samples.len().min(BLOCK);
                 dst[..n].copy_from_slice(&samples[..n]);
             }
-            FormulaStep::Unary(op, a) => one(dst, of(a), |x| op.on_number(x)),
+            FormulaStep::Unary(op, a) => one(dst, column(a), |x| op.on_number(x)),
             FormulaStep::Binary(op, a, b) => {
-                known_operator!(op, |op: BinaryOp| two(dst, of(a), of(b), |a, b| op.on_numbers(a, b)));
+                known_operator!(op, |op: BinaryOp| two(dst, column(a), column(b), |a, b| op
+                    .on_numbers(a, b)));
             }
             FormulaStep::Right(op, a, k) => {
                 let k = k.number();
-                known_operator!(op, |op: BinaryOp| one(dst, of(a), |x| op.on_numbers(x, k)));
+                known_operator!(op, |op: BinaryOp| one(dst, column(a), |x| op.on_numbers(x, k)));
             }
             FormulaStep::Left(op, k, a) => {
                 let k = k.number();
-                known_operator!(op, |op: BinaryOp| one(dst, of(a), |x| op.on_numbers(k, x)));
+                known_operator!(op, |op: BinaryOp| one(dst, column(a), |x| op.on_numbers(k, x)));
             }
             FormulaStep::Select(test, yes, no) => {
-                let branches = of(yes).iter().zip(of(no));
-                for ((d, test), (yes, no)) in dst.iter_mut().zip(of(test)).zip(branches) {
+                let branches = column(yes).iter().zip(column(no));
+                for ((d, test), (yes, no)) in dst.iter_mut().zip(column(test)).zip(branches) {
                     *d = select(*test, *yes, *no);
                 }
             }
@@ -229,7 +230,7 @@ impl Columnar {
                 let mut row = [0.0; FEW];
                 for (sample, d) in dst.iter_mut().enumerate() {
                     for (x, &a) in row.iter_mut().zip(args) {
-                        *x = of(a)[sample];
+                        *x = column(a)[sample];
                     }
                     *d = function.apply(row.get(..args.len()).unwrap_or(&row));
                 }

@@ -193,9 +193,9 @@ impl Measure {
 
 /// Joins two dimensions that agree: the factor is kept if both have it, and the angle if either has it.
 fn joined(a: Dimension, b: Dimension) -> Dimension {
-    let of = if a.powers[ANGLE].abs() >= b.powers[ANGLE].abs() { a } else { b };
+    let larger = if a.powers[ANGLE].abs() >= b.powers[ANGLE].abs() { a } else { b };
     let same = (a.factor - b.factor).abs() <= 1e-9 * a.factor.abs();
-    Dimension { factor: if same { a.factor } else { f64::NAN }, ..of }
+    Dimension { factor: if same { a.factor } else { f64::NAN }, ..larger }
 }
 
 #[cfg(test)]

@@ -47,8 +47,8 @@ struct ReferenceRow {
     example: (String, &'static str),
 }
 
-fn rows(of: &[ReceiverKind], array: &str) -> Vec<ReferenceRow> {
-    let natives = natives::public_rows().filter(|r| of.contains(&r.on));
+fn rows(receivers: &[ReceiverKind], array: &str) -> Vec<ReferenceRow> {
+    let natives = natives::public_rows().filter(|r| receivers.contains(&r.on));
     let name = |row: &natives::Native| match row.calls() {
         true if row.on == ReceiverKind::Nothing => format!("{}(v, f)", row.name),
         true => format!("{}(f)", row.name),
@@ -109,8 +109,8 @@ pub fn language_page(host_terms: &HostTerms) -> String {
         ("Methods of numbers", &[ReceiverKind::Number]),
         ("Functions", &[ReceiverKind::Nothing]),
     ];
-    for (title, of) in sections {
-        table(&mut out, title, rows(of, host_terms.array));
+    for (title, receivers) in sections {
+        table(&mut out, title, rows(receivers, host_terms.array));
     }
     table(&mut out, "`Math`", functions_of_math());
     out.push_str("\nConstants: ");

@@ -6,7 +6,7 @@ use crate::ast::{ExprKind, Function};
 use crate::natives::{Implementation, Native, all};
 use crate::parse::parse_expression;
 
-/// The function of the language that computes a method with so many arguments.
+/// The function of the language that computes a method with this number of arguments.
 pub(crate) fn source_function(row: &Native, arguments: usize) -> Option<&'static Function> {
     static READ: OnceLock<Vec<(&str, Function)>> = OnceLock::new();
     let Implementation::Source(texts) = row.body else { return None };

@@ -7,7 +7,7 @@
 use crate::bind::scene::Models;
 use crate::bind::{ModelNames, Scope};
 use crate::source::Text;
-use crate::spec::{Form, Lab, Lesson};
+use crate::spec::{CodeForm, Lab, Lesson};
 use labspec_core::Model;
 use labspec_expr::{Compiled, Compiler, Globals, Program, Type, format_expression, format_statements};
 use std::ops::Range;
@@ -68,17 +68,17 @@ pub fn is_equivalent(before: &Lesson, after: &Lesson) -> bool {
 }
 
 /// The code of all `verify` objects.
-fn claims(lesson: &Lesson) -> Vec<(Form, &Text)> {
+fn claims(lesson: &Lesson) -> Vec<(CodeForm, &Text)> {
     let of_labs = lesson.all_labs().into_iter().filter_map(|lab: &Lab| lab.verify.as_ref());
     let questions = lesson.quizzes.iter().flat_map(|q| q.numbered());
     let of_questions = questions.filter_map(|(_, q)| q.verify.as_ref());
     of_labs.chain(of_questions).flat_map(|v| v.code()).collect()
 }
 
-fn format_code(code: &str, form: Form) -> Option<String> {
+fn format_code(code: &str, form: CodeForm) -> Option<String> {
     match form {
-        Form::Statements => format_statements(code),
-        Form::Expression | Form::Target => format_expression(code),
+        CodeForm::Statements => format_statements(code),
+        CodeForm::Expression | CodeForm::Target => format_expression(code),
     }
 }
 
@@ -97,7 +97,7 @@ fn edit(lesson: &Lesson, text: &Text, code: &str) -> Option<(Range<usize>, Strin
 
 /// A text with names for its bare indexes; `None` when it has none, or errors. Both versions read, write and call the same
 /// elements.
-pub fn modernized(code: &str, form: Form, model: &Model, globals: &mut Globals) -> Option<String> {
+pub fn modernized(code: &str, form: CodeForm, model: &Model, globals: &mut Globals) -> Option<String> {
     let names = ModelNames::new(model, Scope::Lab);
     let mut compile = |code: &str| compile(code, form, &names, globals);
     let before = compile(code);
@@ -113,11 +113,11 @@ pub fn modernized(code: &str, form: Form, model: &Model, globals: &mut Globals) 
     }
 }
 
-fn compile(code: &str, form: Form, names: &ModelNames<'_>, globals: &mut Globals) -> Compiled {
+fn compile(code: &str, form: CodeForm, names: &ModelNames<'_>, globals: &mut Globals) -> Compiled {
     let mut compiler = Compiler::new(names, globals).with_value(Some(Type::Any)).explaining();
     match form {
-        Form::Expression => compiler.expression(code),
-        Form::Statements => compiler.statements(code),
-        Form::Target => compiler.assignment(code),
+        CodeForm::Expression => compiler.expression(code),
+        CodeForm::Statements => compiler.statements(code),
+        CodeForm::Target => compiler.assignment(code),
     }
 }

@@ -84,8 +84,8 @@ pub enum State {
     False,
     /// Could not be checked.
     Unchecked,
-    /// Left out of this check: it was not requested, or it is an unknown widget.
-    LeftOut,
+    /// Skipped in this check: it was not requested, or it is an unknown widget.
+    Skipped,
     /// False or unchecked, as recorded in the baseline.
     Known,
     /// Not claimed, so nothing was checked.
@@ -99,7 +99,7 @@ impl State {
             State::True(_) => "true",
             State::False => "false",
             State::Unchecked => "unchecked",
-            State::LeftOut => "left out",
+            State::Skipped => "left out",
             State::Known => "known",
             State::NotClaimed => "not claimed",
         }
@@ -146,8 +146,9 @@ pub struct Count {
     pub wrong: usize,
     /// Not checked.
     pub unchecked: usize,
-    /// Left out of this check.
-    pub left_out: usize,
+    /// Skipped in this check.
+    #[serde(rename = "leftOut")]
+    pub skipped: usize,
     /// In the baseline.
     #[serde(rename = "known")]
     pub baselined: usize,
@@ -208,7 +209,7 @@ impl Ledger {
                 State::True(Evidence::Computed) => &mut count.computed,
                 State::False => &mut count.wrong,
                 State::Unchecked => &mut count.unchecked,
-                State::LeftOut => &mut count.left_out,
+                State::Skipped => &mut count.skipped,
                 State::Known => &mut count.baselined,
                 State::NotClaimed => &mut count.not_claimed,
             } += 1;
@@ -222,7 +223,7 @@ impl Ledger {
         let good = |e: &Entry| !matches!(e.subject, Subject::File | Subject::Widget | Subject::Option);
         if self.entries.iter().any(bad) {
             Outcome::Findings
-        } else if self.entries.iter().any(|e| e.state == State::LeftOut) {
+        } else if self.entries.iter().any(|e| e.state == State::Skipped) {
             Outcome::Partial
         } else if self.entries.iter().any(|e| e.state == State::Known) {
             Outcome::Known
@@ -261,7 +262,7 @@ impl Ledger {
             (true, findings) if !findings.is_empty() => parts.push(findings.into()),
             _ => {}
         }
-        if any(State::LeftOut) {
+        if any(State::Skipped) {
             let all_is_well = parts.is_empty();
             parts.push(match all_is_well {
                 true => "the checked part has no problems, but not everything was checked".into(),
@@ -310,7 +311,7 @@ impl Ledger {
     pub fn accept_widgets(&mut self, accepted: impl Fn(&Arc<str>, &str) -> bool) {
         for entry in self.entries.iter_mut().filter(|e| e.subject == Subject::Widget) {
             let name = entry.owner.strip_prefix("widget ").unwrap_or_default();
-            if entry.state == State::LeftOut && accepted(&entry.path, name) {
+            if entry.state == State::Skipped && accepted(&entry.path, name) {
                 (entry.state, entry.word) = (State::NotClaimed, "not run");
                 entry.remark.clear();
             }
@@ -319,7 +320,7 @@ impl Ledger {
 
     /// Marks the claims that were left out of interrupted lessons as unchecked.
     pub fn break_off(&mut self, is_broken_off: impl Fn(&Arc<str>) -> bool) {
-        for entry in self.entries.iter_mut().filter(|e| e.state == State::LeftOut && is_broken_off(&e.path)) {
+        for entry in self.entries.iter_mut().filter(|e| e.state == State::Skipped && is_broken_off(&e.path)) {
             (entry.state, entry.word) = (State::Unchecked, "unchecked");
             entry.remark = "the check of this lesson was interrupted".into();
         }
@@ -343,23 +344,23 @@ fn summary_counts(subject: Subject, c: &Count) -> Vec<[(usize, &'static str); 2]
         Subject::File => vec![[(c.simulated + c.computed + c.wrong + c.unchecked, ""), (0, "")]],
         // Runs are means of the claims that read them, so only broken and impossible ones are reported.
         Subject::Run => {
-            vec![[(c.wrong, "broken"), (c.unchecked, "impossible")], [(c.left_out, "left out"), (0, "")]]
+            vec![[(c.wrong, "broken"), (c.unchecked, "impossible")], [(c.skipped, "left out"), (0, "")]]
         }
-        Subject::Widget => vec![[(c.not_claimed, "not run"), (c.left_out, "not checked")]],
+        Subject::Widget => vec![[(c.not_claimed, "not run"), (c.skipped, "not checked")]],
         Subject::Model => vec![[(c.computed, "loaded"), (c.wrong + c.unchecked, "refused")]],
         Subject::Lab => vec![
             [(c.simulated, "run"), (c.wrong, "broken")],
-            [(c.unchecked, "not run in full"), (c.left_out, "left out")],
+            [(c.unchecked, "not run in full"), (c.skipped, "left out")],
         ],
         Subject::Option => vec![[(c.not_claimed, "not decided"), (0, "")]],
         Subject::Snapshot => vec![
             [(c.simulated, "as stored"), (c.wrong, "not as stored")],
-            [(c.unchecked, "could not be checked"), (c.left_out, "left out")],
+            [(c.unchecked, "could not be checked"), (c.skipped, "left out")],
         ],
         Subject::Answer | Subject::Quote | Subject::ClosedForm => vec![
             [(c.simulated, "verified"), (c.computed, "computed")],
             [(c.wrong, "wrong"), (c.unchecked, "could not be checked")],
-            [(c.not_claimed, "without a check"), (c.left_out, "left out")],
+            [(c.not_claimed, "without a check"), (c.skipped, "left out")],
         ],
     }
 }
@@ -392,25 +393,28 @@ mod tests {
 
     #[test]
     fn the_outcome_is_that_of_the_worst_claim() {
-        let of = |states: &[(Subject, State)]| {
+        let outcome = |states: &[(Subject, State)]| {
             let mut ledger = Ledger::default();
             states.iter().for_each(|&(subject, state)| ledger.add(entry(subject, state)));
             ledger.outcome()
         };
         let file = (Subject::File, State::True(Evidence::Computed));
         let answer = |state| (Subject::Answer, state);
-        assert_eq!(of(&[]), Outcome::Nothing);
-        assert_eq!(of(&[file]), Outcome::Nothing);
-        assert_eq!(of(&[file, (Subject::Widget, State::NotClaimed)]), Outcome::Nothing);
-        assert_eq!(of(&[file, (Subject::Widget, State::LeftOut)]), Outcome::Partial);
-        assert_eq!(of(&[file, answer(State::NotClaimed)]), Outcome::Clean);
-        assert_eq!(of(&[file, answer(State::True(Evidence::Simulated))]), Outcome::Clean);
-        assert_eq!(of(&[file, answer(State::Unchecked)]), Outcome::Findings);
-        assert_eq!(of(&[(Subject::File, State::Unchecked)]), Outcome::Findings);
-        let left = answer(State::LeftOut);
-        assert_eq!(of(&[file, left, answer(State::True(Evidence::Simulated))]), Outcome::Partial);
-        assert_eq!(of(&[left, answer(State::Unchecked)]), Outcome::Findings);
-        assert_eq!(of(&[answer(State::True(Evidence::Simulated)), answer(State::False)]), Outcome::Findings);
+        assert_eq!(outcome(&[]), Outcome::Nothing);
+        assert_eq!(outcome(&[file]), Outcome::Nothing);
+        assert_eq!(outcome(&[file, (Subject::Widget, State::NotClaimed)]), Outcome::Nothing);
+        assert_eq!(outcome(&[file, (Subject::Widget, State::Skipped)]), Outcome::Partial);
+        assert_eq!(outcome(&[file, answer(State::NotClaimed)]), Outcome::Clean);
+        assert_eq!(outcome(&[file, answer(State::True(Evidence::Simulated))]), Outcome::Clean);
+        assert_eq!(outcome(&[file, answer(State::Unchecked)]), Outcome::Findings);
+        assert_eq!(outcome(&[(Subject::File, State::Unchecked)]), Outcome::Findings);
+        let left = answer(State::Skipped);
+        assert_eq!(outcome(&[file, left, answer(State::True(Evidence::Simulated))]), Outcome::Partial);
+        assert_eq!(outcome(&[left, answer(State::Unchecked)]), Outcome::Findings);
+        assert_eq!(
+            outcome(&[answer(State::True(Evidence::Simulated)), answer(State::False)]),
+            Outcome::Findings
+        );
     }
 
     /// Every combination of counts has a correct sentence: it names all existing states and no others.
@@ -419,7 +423,7 @@ mod tests {
         let states = [
             (State::False, "is false", "are false"),
             (State::Unchecked, "1 claim could not be checked", "2 claims could not be checked"),
-            (State::LeftOut, "not everything was", "not everything was"),
+            (State::Skipped, "not everything was", "not everything was"),
             (State::Known, "the baseline", "the baseline"),
         ];
         for code in 0..3usize.pow(5) {
@@ -460,7 +464,7 @@ mod tests {
         assert_eq!(ledger.conclusion("1 warning"), "1 warning");
         ledger.add(entry(Subject::Answer, State::False));
         ledger.add(entry(Subject::Answer, State::Unchecked));
-        ledger.add(entry(Subject::Widget, State::LeftOut));
+        ledger.add(entry(Subject::Widget, State::Skipped));
         let both =
             "1 claim is false, 1 claim could not be checked, 2 errors, 1 warning, not everything was checked";
         assert_eq!(ledger.conclusion("2 errors, 1 warning"), both);
@@ -478,7 +482,7 @@ mod tests {
             State::True(Evidence::Computed),
             State::False,
             State::Unchecked,
-            State::LeftOut,
+            State::Skipped,
             State::NotClaimed,
         ] {
             ledger.add(entry(Subject::Answer, state));

@@ -129,14 +129,14 @@ mod tests {
 
     /// Pairs of factor and level in one row.
     fn covered_pairs(rows: &[Vec<usize>]) -> BTreeSet<[(usize, usize); 2]> {
-        let of = |row: &Vec<usize>| {
+        let row_pairs = |row: &Vec<usize>| {
             let row = row.clone();
             (0..row.len()).flat_map(move |i| {
                 let row = row.clone();
                 (i + 1..row.len()).map(move |j| [(i, row[i]), (j, row[j])])
             })
         };
-        rows.iter().flat_map(of).collect()
+        rows.iter().flat_map(row_pairs).collect()
     }
 
     #[test]

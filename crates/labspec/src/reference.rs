@@ -158,7 +158,9 @@ fn attributes<'a>(rows: impl Iterator<Item = &'a xml::SchemaRow>) -> String {
         let Some(attribute) = row.attribute else { continue };
         let name = format!("`{}`", attribute.name);
         let refused: Vec<&str> = match attribute.kind {
-            xml::Kind::Keywords(words) => words.iter().filter(|w| !w.supported).map(|w| w.text).collect(),
+            xml::AttributeType::Keywords(words) => {
+                words.iter().filter(|w| !w.supported).map(|w| w.text).collect()
+            }
             _ => Vec::new(),
         };
         let (group, entry) = match row.status {

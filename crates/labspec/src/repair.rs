@@ -137,32 +137,32 @@ impl TextState {
 /// The repaired text, and the number of repairs. `look` checks a text, `shows` returns the displayed values of its labs.
 /// Safe repairs are made first and proven, then unsafe ones on request.
 pub fn repair(
-    now: CheckedText,
+    current: CheckedText,
     guesses: bool,
     look: &dyn Fn(&str) -> CheckedText,
     shows: &dyn Fn(&str) -> Traces,
 ) -> (String, usize) {
-    let mut now = TextState::new(now);
-    let mut made = rounds(&mut now, Applicability::Safe, &RepairJudge { look, shows, proves: true });
+    let mut current = TextState::new(current);
+    let mut made = rounds(&mut current, Applicability::Safe, &RepairJudge { look, shows, proves: true });
     if guesses {
-        made += rounds(&mut now, Applicability::Unsafe, &RepairJudge { look, shows, proves: false });
+        made += rounds(&mut current, Applicability::Unsafe, &RepairJudge { look, shows, proves: false });
         // Safe repairs that an unsafe one revealed.
-        made += rounds(&mut now, Applicability::Safe, &RepairJudge { look, shows, proves: true });
+        made += rounds(&mut current, Applicability::Safe, &RepairJudge { look, shows, proves: true });
     }
-    (now.looked.text, made)
+    (current.looked.text, made)
 }
 
 /// Makes repairs of a kind until nothing changes; returns their number.
-fn rounds(now: &mut TextState, kind: Applicability, judge: &RepairJudge<'_>) -> usize {
+fn rounds(current: &mut TextState, kind: Applicability, judge: &RepairJudge<'_>) -> usize {
     let mut made = 0;
     for _ in 0..ROUNDS {
-        let fixes = disjoint_repairs(&now.looked.findings, kind);
+        let fixes = disjoint_repairs(&current.looked.findings, kind);
         if fixes.is_empty() || interrupted() {
             break;
         }
-        let old = now.looked.text.clone();
+        let old = current.looked.text.clone();
         let mut applied = BTreeSet::new();
-        keep(&old, &fixes, 0..fixes.len(), &mut applied, now, judge);
+        keep(&old, &fixes, 0..fixes.len(), &mut applied, current, judge);
         if applied.is_empty() {
             break;
         }
@@ -175,26 +175,26 @@ fn rounds(now: &mut TextState, kind: Applicability, judge: &RepairJudge<'_>) -> 
 type Repair = (&'static str, Fix);
 
 /// Keeps the repairs of a part of the list that succeed: all of them if they succeed together, or else those of each half.
-/// With b failing ones among n repairs, this needs about b log n checks. `now` is the old text with the repairs that are
+/// With b failing ones among n repairs, this needs about b log n checks. `current` is the old text with the repairs that are
 /// kept.
 fn keep(
     old: &str,
     fixes: &[Repair],
     part: Range<usize>,
     selected: &mut BTreeSet<usize>,
-    now: &mut TextState,
+    current: &mut TextState,
     judge: &RepairJudge<'_>,
 ) {
     if part.is_empty() || interrupted() {
         return;
     }
-    if let Some(next) = attempt(old, fixes, part.clone(), selected, now, judge) {
+    if let Some(next) = attempt(old, fixes, part.clone(), selected, current, judge) {
         selected.extend(part);
-        *now = next;
+        *current = next;
     } else if part.len() > 1 {
         let middle = part.start + part.len() / 2;
-        keep(old, fixes, part.start..middle, selected, now, judge);
-        keep(old, fixes, middle..part.end, selected, now, judge);
+        keep(old, fixes, part.start..middle, selected, current, judge);
+        keep(old, fixes, middle..part.end, selected, current, judge);
     }
 }
 
@@ -222,7 +222,7 @@ fn attempt(
     fixes: &[Repair],
     part: Range<usize>,
     selected: &BTreeSet<usize>,
-    now: &TextState,
+    current: &TextState,
     judge: &RepairJudge<'_>,
 ) -> Option<TextState> {
     let mut codes: BTreeMap<&str, usize> = BTreeMap::new();
@@ -240,13 +240,13 @@ fn attempt(
     }
     text.push_str(old.get(at..)?);
     let next = TextState::new((judge.look)(&text));
-    let (was, is) = (&now.looked, &next.looked);
+    let (was, is) = (&current.looked, &next.looked);
     let gone = codes.iter().all(|(code, n)| is.count_of_rule(code) + n <= was.count_of_rule(code));
     if !gone || is.errors() > was.errors() || is.broken > was.broken {
         return None;
     }
     let shown_by_a_run = codes.keys().all(|code| RULES_WITH_RUNS.iter().any(|rule| rule.code == *code));
-    let proven = !judge.proves || shown_by_a_run || now.displayed(judge).is_subset(next.displayed(judge));
+    let proven = !judge.proves || shown_by_a_run || current.displayed(judge).is_subset(next.displayed(judge));
     proven.then_some(next)
 }
 
@@ -307,10 +307,17 @@ mod tests {
         assert!(looks.get() <= 2 * 3 * 8 + 1 + 2 * 3, "{}", looks.get());
         // A repair outside of the text does not affect the others.
         let fixes = [("a", Fix::safe(0..1, "o")), ("a", Fix::safe(9..12, "o"))];
-        let mut now = TextState::new(find_wrong("x b"));
+        let mut current = TextState::new(find_wrong("x b"));
         let judge = RepairJudge { look: &find_wrong, shows: &|_| Traces::new(), proves: true };
         let mut selected = BTreeSet::new();
-        keep("x b", &fixes.map(|(_, fix)| (UNKNOWN_KEY.code, fix)), 0..2, &mut selected, &mut now, &judge);
-        assert_eq!((now.looked.text.as_str(), selected.len()), ("o b", 1));
+        keep(
+            "x b",
+            &fixes.map(|(_, fix)| (UNKNOWN_KEY.code, fix)),
+            0..2,
+            &mut selected,
+            &mut current,
+            &judge,
+        );
+        assert_eq!((current.looked.text.as_str(), selected.len()), ("o b", 1));
     }
 }

@@ -26,22 +26,22 @@ pub(super) fn code_actions(
     models: &Models,
 ) -> Vec<CodeActionOrCommand> {
     let only = only.unwrap_or_default();
-    let includes = |wanted: &CodeActionKind, kind: &CodeActionKind| {
-        let rest = kind.as_str().strip_prefix(wanted.as_str());
+    let includes = |requested: &CodeActionKind, kind: &CodeActionKind| {
+        let rest = kind.as_str().strip_prefix(requested.as_str());
         rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
     };
-    let wanted = |kind: &CodeActionKind| only.is_empty() || only.iter().any(|o| includes(o, kind));
+    let requested = |kind: &CodeActionKind| only.is_empty() || only.iter().any(|o| includes(o, kind));
     let touches = |f: &&Finding| f.span.start <= span.end && span.start <= f.span.end;
     let content = &document.content;
     let mut all = Vec::new();
     let here = || content.findings.iter().filter(touches);
-    if wanted(&CodeActionKind::QUICKFIX) {
+    if requested(&CodeActionKind::QUICKFIX) {
         let found = here().filter_map(|f| Some(quick_fix(document, f, fix(&content.file, f)?)));
         all.extend(found);
         let suppressed = |f: &Finding| Some(quick_fix(document, f, suppression(lesson?, f)?));
         all.extend(here().filter_map(suppressed));
     }
-    if wanted(&CodeActionKind::SOURCE_FIX_ALL) {
+    if requested(&CodeActionKind::SOURCE_FIX_ALL) {
         let whole = lesson.and_then(|lesson| fix_all(content, lesson, models));
         all.extend(whole.map(|fix| CodeAction {
             title: format!("labspec: {}", fix.title),

@@ -257,8 +257,8 @@ fn in_lesson(name: &QualifiedName, lesson: &Lesson, path: &Path, models: &Models
     found.ambiguities.extend(broken.map(|span| Ambiguity { file: file.clone(), span: span.clone(), why }));
     // The model itself, if it is part of the lab.
     for lab in lesson.all_labs() {
-        if let (ModelLocation::Lab(of, span), Some(xml)) = (&name.model, &lab.xml)
-            && of == path
+        if let (ModelLocation::Lab(owner, span), Some(xml)) = (&name.model, &lab.xml)
+            && owner == path
             && *span == lab.span
         {
             let whole =

@@ -198,8 +198,8 @@ fn find_references(
     let Some((name, _)) = name_at(state, &params.at)? else { return Ok(None) };
     let also_definition = params.context.is_none_or(|context| context.include_declaration);
     let found = find_occurrences(state, &name);
-    let wanted = found.all.iter().filter(|occurrence| also_definition || !occurrence.defines);
-    Ok(Some(names::locations(wanted, &search_scope(state))))
+    let occurrences = found.all.iter().filter(|occurrence| also_definition || !occurrence.defines);
+    Ok(Some(names::locations(occurrences, &search_scope(state))))
 }
 
 fn prepare_rename(

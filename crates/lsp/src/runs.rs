@@ -24,14 +24,14 @@ pub(super) struct FinishedJob {
 
 /// A check in progress.
 #[derive(Debug)]
-pub(super) struct Job {
+pub(super) struct RunningCheck {
     /// A consecutive number, assigned by the caller.
     pub(super) number: u64,
     pub(super) uri: String,
     stop: Arc<AtomicBool>,
 }
 
-impl Job {
+impl RunningCheck {
     /// Starts a check of a text with all its runs. `done` is called at the end, unless the check was cancelled.
     pub(super) fn start(
         number: u64,
@@ -40,9 +40,9 @@ impl Job {
         (file, path): (SourceFile, PathBuf),
         (models, sources): (Arc<Models>, Sources),
         done: impl FnOnce(FinishedJob) + Send + 'static,
-    ) -> Option<Job> {
+    ) -> Option<RunningCheck> {
         let (stop, uri) = (Arc::new(AtomicBool::new(false)), uri.to_string());
-        let (asked, of) = (stop.clone(), uri.clone());
+        let (asked, document) = (stop.clone(), uri.clone());
         let work = move || {
             let findings = interrupt::until(asked.clone(), || {
                 let lesson = load_lesson_at(file, &path, &sources, models.folder());
@@ -50,11 +50,11 @@ impl Job {
             });
             // The results of a cancelled check are discarded.
             if !asked.load(Ordering::Relaxed) {
-                done(FinishedJob { job: number, uri: of, version, findings });
+                done(FinishedJob { job: number, uri: document, version, findings });
             }
         };
         threads::checking().spawn(work).ok()?;
-        Some(Job { number, uri, stop })
+        Some(RunningCheck { number, uri, stop })
     }
 
     /// Cancels the check.

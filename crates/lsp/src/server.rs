@@ -172,14 +172,14 @@ mod tests {
         let logged = found.iter().filter(|message| message["method"] == "window/logMessage");
         let logged: Vec<&str> =
             logged.map(|message| message["params"]["message"].as_str().unwrap()).collect();
-        let wanted = [
+        let expected = [
             "settings of labspec are invalid",
             "cannot be read",
             "missing field `uri`",
             "settings of labspec",
         ];
-        assert_eq!(logged.len(), wanted.len(), "{logged:?}");
-        assert!(logged.iter().zip(wanted).all(|(text, part)| text.contains(part)), "{logged:?}");
+        assert_eq!(logged.len(), expected.len(), "{logged:?}");
+        assert!(logged.iter().zip(expected).all(|(text, part)| text.contains(part)), "{logged:?}");
         let answer = |id: usize| found.iter().find(|message| message["id"] == id).unwrap();
         assert!(answer(0).get("result").is_some() && answer(2).get("result").is_some(), "{found:?}");
         assert_eq!(answer(4)["error"]["message"], "this document is not open");

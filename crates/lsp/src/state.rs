@@ -5,7 +5,7 @@ use super::convert;
 use super::diagnostic::diagnostic;
 use super::documents::OpenDocument;
 use super::initialize::EditorSettings;
-use super::runs::{FinishedJob, Job};
+use super::runs::{FinishedJob, RunningCheck};
 use super::wire::{self, Incoming};
 use labspec::finding::Finding;
 use labspec::lint::{ModelFolder, links_to};
@@ -60,7 +60,7 @@ pub(super) struct ServerState<'c> {
     /// The folders that are open in the editor.
     pub(super) folders: Vec<WorkspaceRoot>,
     pub(super) settings: EditorSettings,
-    job: Option<Job>,
+    job: Option<RunningCheck>,
     /// The number of checks that were started.
     jobs: u64,
 }
@@ -136,13 +136,13 @@ impl<'c> ServerState<'c> {
     /// Sets the text of a file in the editor, or `None` if it is not open. Documents that depend on the file are checked again.
     pub(super) fn set_text(&mut self, path: &Path, text: Option<&str>) {
         let sources = self.contexts.sources();
-        let now = || sources.text(path, MAX_FILE, "a lesson or a model").ok();
-        let before = now();
+        let current = || sources.text(path, MAX_FILE, "a lesson or a model").ok();
+        let before = current();
         match text {
             Some(text) => self.contexts.overlay.put(path, text),
             None => self.contexts.overlay.close(path),
         }
-        if before == now() {
+        if before == current() {
             return;
         }
         match kind_of(path) {
@@ -194,7 +194,7 @@ impl<'c> ServerState<'c> {
         // The channel is closed if the server has ended.
         let done = move |finished| drop(sender.send(ServerEvent::Finished(finished)));
         self.jobs += 1;
-        self.job = Job::start(self.jobs, uri, document.version, text, context, done);
+        self.job = RunningCheck::start(self.jobs, uri, document.version, text, context, done);
     }
 
     /// Stores the findings of runs, unless the text has changed.

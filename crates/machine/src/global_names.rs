@@ -19,7 +19,7 @@ impl GlobalNames {
     /// Adds a name.
     pub(crate) fn push(&mut self, name: &str) {
         let first = self.count;
-        let apart = {
+        let changed_list = {
             let mut names = held(&self.list);
             if names.len() == first {
                 names.push(name.into());
@@ -28,7 +28,7 @@ impl GlobalNames {
                 Some(names.iter().take(first).cloned().chain([name.into()]).collect())
             }
         };
-        if let Some(copy) = apart {
+        if let Some(copy) = changed_list {
             self.list = Arc::new(Mutex::new(copy));
         }
         self.count += 1;

@@ -253,7 +253,7 @@ impl Heap {
     }
 
     /// Whether enough memory was allocated since the last collection to make another one worthwhile.
-    pub(crate) fn wants_collection(&self) -> bool {
+    pub(crate) fn needs_collection(&self) -> bool {
         self.bytes > self.threshold.max(MIN_COLLECTION)
     }
 

@@ -13,8 +13,8 @@ pub trait Host {
     /// it needs in one call, sorted by field and index.
     fn read(&self, elements: &[(FieldKey, u32)], out: &mut [f64]) -> bool {
         out.iter_mut().zip(elements).all(|(x, &(field, index))| match self.get(field, index as usize) {
-            Some(now) => {
-                *x = now;
+            Some(current) => {
+                *x = current;
                 true
             }
             None => false,

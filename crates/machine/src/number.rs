@@ -26,7 +26,7 @@ pub fn to_text(x: f64) -> String {
 /// and Rust may use either.
 fn even_of_two(digits: String, exponent: &str, x: f64) -> String {
     let n: u64 = digits.parse().unwrap_or(0);
-    // With fewer digits, the candidates are further apart than doubles, so there is no tie.
+    // With fewer digits, the candidates are less dense than doubles, so there is no tie.
     if digits.len() < 15 || n.is_multiple_of(2) {
         return digits;
     }

@@ -22,7 +22,7 @@ pub struct MemberTable {
     /// The noun for the objects: `joint`.
     pub noun: String,
     /// Sorted by name.
-    pub of: Vec<(Arc<str>, Value)>,
+    pub members: Vec<(Arc<str>, Value)>,
     /// Whether the members are numbers: then the first element of each view is loaded.
     pub scalar: bool,
 }

@@ -39,7 +39,7 @@ pub(super) struct Tick {
 
 /// The ends of a linear axis before rounding, and whether each end may move outwards to a tick.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Range {
+pub(super) struct AxisRange {
     /// The low end.
     pub(super) low: f64,
     /// The high end.
@@ -77,7 +77,7 @@ impl Axis {
 }
 
 /// The range of an axis for data with these extremes (if there are any), between the requested ends.
-pub(super) fn range(data: Option<(f64, f64)>, low: Option<f64>, high: Option<f64>) -> Range {
+pub(super) fn range(data: Option<(f64, f64)>, low: Option<f64>, high: Option<f64>) -> AxisRange {
     let (low, high) = (low.filter(|v| drawable(*v)), high.filter(|v| drawable(*v)));
     let (low, high) = match (low, high) {
         (Some(a), Some(b)) if a > b => (Some(b), Some(a)),
@@ -104,13 +104,13 @@ pub(super) fn range(data: Option<(f64, f64)>, low: Option<f64>, high: Option<f64
         // Too close to be distinguished as doubles in a picture.
         (a, b) = (a - 1e-13 * magnitude, b + 1e-13 * magnitude);
     }
-    Range { low: a, high: b, free_low, free_high }
+    AxisRange { low: a, high: b, free_low, free_high }
 }
 
 /// A linear axis with at most about `count` steps. A free end moves to the next tick if that extends the range by at most
 /// `slack` times the range.
-pub(super) fn linear(range: Range, count: usize, slack: f64) -> Axis {
-    let Range { mut low, mut high, free_low, free_high } = range;
+pub(super) fn linear(range: AxisRange, count: usize, slack: f64) -> Axis {
+    let AxisRange { mut low, mut high, free_low, free_high } = range;
     let step = TickStep::over((high - low) / count.max(1) as f64);
     let allowance = slack * (high - low);
     let (below, above) = ((low / step.size() + 1e-9).floor(), (high / step.size() - 1e-9).ceil());

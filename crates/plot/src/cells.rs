@@ -6,7 +6,7 @@
 
 use super::canvas::{Canvas, drop, style};
 use super::frame::{self, EDGE, Frame, PlotTexts};
-use super::legend::{self, Entry, SAMPLE_WIDTH};
+use super::legend::{self, LegendEntry, SAMPLE_WIDTH};
 use super::style::{LABEL, LABEL_COLOUR, SHADE_COLOUR, TICK, TITLE, TITLE_COLOUR, colour, extent};
 use super::text::{clean_label, fit, width};
 
@@ -38,7 +38,7 @@ const MOST: usize = 200;
 
 /// Draws a map as a complete SVG document. Any data give a picture; if there are no cells, the picture states that.
 pub fn cells(chart: &Cells) -> String {
-    let map = Layout::new(chart);
+    let map = CellLayout::new(chart);
     let named = if map.words.title.trim().is_empty() { "A map of cells" } else { map.words.title };
     let mut canvas = Canvas::new(map.size, named, &describe(chart));
     let area = map.area;
@@ -61,26 +61,27 @@ pub fn cells(chart: &Cells) -> String {
 }
 
 /// The layout of the picture.
-struct Layout<'c> {
+struct CellLayout<'c> {
     size: (f64, f64),
     words: PlotTexts<'c>,
     columns: usize,
     rows: usize,
     /// The values of the rows, shortened to the available width.
     row_values: Vec<String>,
-    legend: legend::Plan,
+    legend: legend::LegendLayout,
     /// The area of the cells.
     area: Frame,
 }
 
-impl<'c> Layout<'c> {
-    fn new(chart: &'c Cells) -> Layout<'c> {
+impl<'c> CellLayout<'c> {
+    fn new(chart: &'c Cells) -> CellLayout<'c> {
         let size = (extent(chart.width, 200.0, 640.0), extent(chart.height, 160.0, 420.0));
         let words =
             PlotTexts { title: &chart.title, xlabel: &chart.xlabel, ylabel: &chart.ylabel, width: size.0 };
         let (columns, rows) = (chart.columns.len().min(MOST), chart.rows.len().min(MOST));
         let (top, below) = (words.above(), words.below());
-        let entries = chart.kinds.iter().enumerate().map(|(index, k)| Entry { label: k.clone(), index });
+        let entries =
+            chart.kinds.iter().enumerate().map(|(index, k)| LegendEntry { label: k.clone(), index });
         let legend = legend::plan(entries.collect(), size.0, size.1 - top - below, true);
         let bottom = (size.1 - below - legend.below).max(top + 20.0);
         let row_values: Vec<String> =
@@ -89,7 +90,7 @@ impl<'c> Layout<'c> {
         let left = EDGE + widest + 8.0;
         let right = (size.0 - EDGE - legend.right - 4.0).max(left + 40.0);
         let area = Frame { left, top, right, bottom };
-        Layout { size, words, columns, rows, row_values, legend, area }
+        CellLayout { size, words, columns, rows, row_values, legend, area }
     }
 
     /// The left edge of a column.

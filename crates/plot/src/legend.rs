@@ -6,7 +6,7 @@ use super::style::{LABEL, TITLE_COLOUR};
 use super::text::{clean_label, fit, width};
 
 /// A curve in the legend.
-pub(super) struct Entry {
+pub(super) struct LegendEntry {
     /// Its name.
     pub(super) label: String,
     /// The index of the curve, which determines its colour and mark.
@@ -23,40 +23,45 @@ const ROW: f64 = 18.0;
 const ENTRY_SPACING: f64 = 18.0;
 
 /// The layout of the legend.
-pub(super) struct Plan {
+pub(super) struct LegendLayout {
     /// The width reserved to the right of the plot.
     pub(super) right: f64,
     /// The height reserved below the labels of the horizontal axis.
     pub(super) below: f64,
     /// The entries with their positions, relative to the corner of the area if at the right, otherwise to the edge
     /// below the rows of the axis.
-    entries: Vec<(f64, f64, Entry)>,
+    entries: Vec<(f64, f64, LegendEntry)>,
     /// The number of curves without an entry, and the position of this note.
     more: Option<(f64, f64, usize)>,
 }
 
 /// Plans the legend of a picture of width `size` whose plot has height `height`. `beside_plot` allows the right side.
-pub(super) fn plan(entries: Vec<Entry>, size: f64, height: f64, beside_plot: bool) -> Plan {
-    let entries: Vec<Entry> = entries
+pub(super) fn plan(entries: Vec<LegendEntry>, size: f64, height: f64, beside_plot: bool) -> LegendLayout {
+    let entries: Vec<LegendEntry> = entries
         .into_iter()
-        .map(|e| Entry { label: clean_label(&e.label), ..e })
+        .map(|e| LegendEntry { label: clean_label(&e.label), ..e })
         .filter(|e| !e.label.is_empty())
         .collect();
     let widest = entries.iter().map(|e| width(&e.label, LABEL)).fold(0.0, f64::max);
     if entries.is_empty() {
-        return Plan { right: 0.0, below: 0.0, entries: Vec::new(), more: None };
+        return LegendLayout { right: 0.0, below: 0.0, entries: Vec::new(), more: None };
     }
     if beside_plot && SAMPLE + widest <= 0.28 * size && entries.len() as f64 * ROW <= height {
         let placed = entries.into_iter().enumerate().map(|(i, e)| (16.0, i as f64 * ROW, e));
-        return Plan { right: 16.0 + SAMPLE + widest, below: 0.0, entries: placed.collect(), more: None };
+        return LegendLayout {
+            right: 16.0 + SAMPLE + widest,
+            below: 0.0,
+            entries: placed.collect(),
+            more: None,
+        };
     }
     rows(entries, size, height)
 }
 
-fn rows(entries: Vec<Entry>, size: f64, height: f64) -> Plan {
+fn rows(entries: Vec<LegendEntry>, size: f64, height: f64) -> LegendLayout {
     let available = size - 2.0 * EDGE;
     let most = (0.4 * height / ROW).floor().max(1.0);
-    let mut plan = Plan { right: 0.0, below: 0.0, entries: Vec::new(), more: None };
+    let mut plan = LegendLayout { right: 0.0, below: 0.0, entries: Vec::new(), more: None };
     let (mut x, mut row) = (0.0, 0.0);
     let count = entries.len();
     for (i, entry) in entries.into_iter().enumerate() {
@@ -71,7 +76,7 @@ fn rows(entries: Vec<Entry>, size: f64, height: f64) -> Plan {
             }
             (x, row) = (0.0, row + 1.0);
         }
-        plan.entries.push((x, row * ROW, Entry { label, ..entry }));
+        plan.entries.push((x, row * ROW, LegendEntry { label, ..entry }));
         x += wide + ENTRY_SPACING;
     }
     plan.below = (row + 1.0) * ROW + 4.0;
@@ -82,7 +87,7 @@ fn rows(entries: Vec<Entry>, size: f64, height: f64) -> Plan {
 /// from a point to the right.
 pub(super) fn draw(
     canvas: &mut Canvas,
-    plan: &Plan,
+    plan: &LegendLayout,
     frame: &Frame,
     below: f64,
     sample: impl Fn(&mut Canvas, usize, (f64, f64)),

@@ -1,10 +1,10 @@
 //! Lines over time: the plots of a lab.
 
-use super::axis::{Axis, Range, linear, range};
+use super::axis::{Axis, AxisRange, linear, range};
 use super::canvas::{Canvas, drop, style};
 use super::curve::{path, pieces};
 use super::frame::{self, EDGE, Frame, PlotTexts, Point, draw, margin};
-use super::legend::{self, Entry, SAMPLE_WIDTH};
+use super::legend::{self, LegendEntry, SAMPLE_WIDTH};
 use super::number::{drawable, short};
 use super::style::{AXIS, SMALL, TICK, TITLE_COLOUR, ZERO, colour, dash, extent};
 use super::text::{clean_label, fit, width};
@@ -68,7 +68,8 @@ pub fn line_chart(chart: &Chart) -> String {
     let label_width = refs.iter().map(|(_, label)| width(label, SMALL)).fold(0.0, f64::max);
 
     let (top, below) = (words.above(), words.below());
-    let entries = chart.series.iter().enumerate().map(|(index, s)| Entry { label: s.label.clone(), index });
+    let entries =
+        chart.series.iter().enumerate().map(|(index, s)| LegendEntry { label: s.label.clone(), index });
     let legend = legend::plan(entries.collect(), size.0, size.1 - top - below, label_width == 0.0);
     let bottom = (size.1 - below - legend.below).max(top + 20.0);
     let y = linear(ys, steps(bottom - top, 34.0).max(2), 1.0);
@@ -102,7 +103,7 @@ pub fn line_chart(chart: &Chart) -> String {
 }
 
 /// The ranges of both axes. Only samples inside a requested horizontal range are considered for the vertical one.
-fn ranges(chart: &Chart) -> (Range, Range) {
+fn ranges(chart: &Chart) -> (AxisRange, AxisRange) {
     let samples = || chart.series.iter().flat_map(|s| &s.points).filter(|p| drawable(p.0) && drawable(p.1));
     let x = range(extremes(samples().map(|p| p.0)), chart.xmin, chart.xmax);
     let inside = |p: &&(f64, f64)| (x.free_low || p.0 >= x.low) && (x.free_high || p.0 <= x.high);
@@ -124,7 +125,7 @@ fn steps(length: f64, least: f64) -> usize {
 
 /// The horizontal axis with as many ticks as there is space for labels, and the right end of the plot. If nothing else is to
 /// the right of the plot, the end leaves space for half of the last label.
-fn horizontal(range: Range, left: f64, limit: f64, alone: bool) -> (f64, Axis) {
+fn horizontal(range: AxisRange, left: f64, limit: f64, alone: bool) -> (f64, Axis) {
     let build = |count: usize| {
         let x = linear(range, count, 0.02);
         let last = x.ticks.last().filter(|t| t.at > 0.9).map_or(0.0, |t| t.label.width(TICK) / 2.0);

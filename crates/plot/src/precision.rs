@@ -11,7 +11,7 @@ use super::canvas::{Canvas, Label, style};
 use super::curve::path;
 use super::frame::{self, EDGE, Frame, PlotTexts, Point, draw, margin};
 use super::labels::{PlacedLabel, arrange};
-use super::legend::{self, Entry, SAMPLE_WIDTH};
+use super::legend::{self, LegendEntry, SAMPLE_WIDTH};
 use super::number::{HUGE, px, short};
 use super::style::{LABEL_COLOUR, SHADE_COLOUR, SMALL, TICK, colour, dash, extent};
 use super::text::{clean_label, fit, width};
@@ -77,15 +77,15 @@ pub struct WorkPrecision {
 
 /// The position of a run along the horizontal axis.
 #[derive(Clone, Copy, PartialEq)]
-enum Error {
+enum DrawnError {
     Zero,
     Finite(f64),
     Diverged,
 }
 
 /// A run that can be drawn.
-struct Run<'a> {
-    error: Error,
+struct DrawnRun<'a> {
+    error: DrawnError,
     cost: f64,
     note: &'a str,
     at_most: bool,
@@ -101,11 +101,12 @@ pub fn work_precision(chart: &WorkPrecision) -> String {
     let size = (extent(chart.width, 200.0, 640.0), extent(chart.height, 160.0, 420.0));
     let words =
         PlotTexts { title: &chart.title, xlabel: &chart.xlabel, ylabel: &chart.ylabel, width: size.0 };
-    let methods: Vec<Vec<Run>> = chart.methods.iter().map(|m| runs(&m.points)).collect();
+    let methods: Vec<Vec<DrawnRun>> = chart.methods.iter().map(|m| runs(&m.points)).collect();
     let all = || methods.iter().flatten();
 
     let (top, below) = (words.above(), words.below());
-    let entries = chart.methods.iter().enumerate().map(|(index, m)| Entry { label: m.label.clone(), index });
+    let entries =
+        chart.methods.iter().enumerate().map(|(index, m)| LegendEntry { label: m.label.clone(), index });
     let legend = legend::plan(entries.collect(), size.0, size.1 - top - below, true);
     let bottom = (size.1 - below - legend.below).max(top + 20.0);
     let y = axis(all().map(|r| r.cost), |_| 1.5 * TICK / (bottom - top));
@@ -114,13 +115,13 @@ pub fn work_precision(chart: &WorkPrecision) -> String {
     let outer = Frame { left, top, right, bottom };
 
     // The strips next to the scale exist only if they contain runs.
-    let some = |error: Error| all().any(|r| r.error == error);
-    let diverging = methods.iter().filter(|m| m.iter().any(|r| r.error == Error::Diverged)).count();
-    let zero = if some(Error::Zero) { 34.0f64.min(0.15 * outer.width()) } else { 0.0 };
+    let some = |error: DrawnError| all().any(|r| r.error == error);
+    let diverging = methods.iter().filter(|m| m.iter().any(|r| r.error == DrawnError::Diverged)).count();
+    let zero = if some(DrawnError::Zero) { 34.0f64.min(0.15 * outer.width()) } else { 0.0 };
     let wish = (width(DIVERGED, TICK) + 8.0).max(16.0 + 22.0 * diverging as f64);
     let failed = if diverging > 0 { wish.min(0.3 * outer.width()) } else { 0.0 };
     let inner = Frame { left: left + zero, right: right - failed, ..outer };
-    let finite = all().filter_map(|r| if let Error::Finite(e) = r.error { Some(e) } else { None });
+    let finite = all().filter_map(|r| if let DrawnError::Finite(e) = r.error { Some(e) } else { None });
     let mut x = axis(finite, |label| (label.width(TICK) + 10.0) / inner.width().max(1.0));
     drop_labels_under_strips(&mut x, &outer, &inner, size.0);
 
@@ -185,16 +186,16 @@ fn name_strips(canvas: &mut Canvas, outer: &Frame, inner: &Frame) {
 /// The label of the strip of runs without a finite error.
 const DIVERGED: &str = "diverged";
 
-fn runs(points: &[MethodPoint]) -> Vec<Run<'_>> {
+fn runs(points: &[MethodPoint]) -> Vec<DrawnRun<'_>> {
     let drawn = points.iter().filter(|p| (TINY..=HUGE).contains(&p.cost));
     let run = drawn.map(|p| {
         let error = match p.error.abs() {
-            _ if p.failed => Error::Diverged,
-            e if e < TINY => Error::Zero,
-            e if e <= HUGE => Error::Finite(e),
-            _ => Error::Diverged,
+            _ if p.failed => DrawnError::Diverged,
+            e if e < TINY => DrawnError::Zero,
+            e if e <= HUGE => DrawnError::Finite(e),
+            _ => DrawnError::Diverged,
         };
-        Run { error, cost: p.cost, note: &p.note, at_most: p.at_most, spread: p.spread }
+        DrawnRun { error, cost: p.cost, note: &p.note, at_most: p.at_most, spread: p.spread }
     });
     run.collect()
 }
@@ -206,7 +207,7 @@ fn axis(values: impl Iterator<Item = f64>, extent: impl Fn(&Label) -> f64) -> Ax
 
 /// A run with its position.
 struct PlacedRun<'a> {
-    error: Error,
+    error: DrawnError,
     at: Point,
     note: &'a str,
     at_most: bool,
@@ -216,7 +217,7 @@ struct PlacedRun<'a> {
 
 /// The positions of all runs. Crosses of different methods are placed side by side, in the order of the methods.
 fn place<'a>(
-    methods: &[Vec<Run<'a>>],
+    methods: &[Vec<DrawnRun<'a>>],
     (outer, inner): (&Frame, &Frame),
     x: &Axis,
     y: &Axis,
@@ -226,15 +227,15 @@ fn place<'a>(
     let mut placed = Vec::new();
     for method in methods {
         let cross = (f64::from(rank) + 0.5) / diverging.max(1) as f64;
-        if method.iter().any(|r| r.error == Error::Diverged) {
+        if method.iter().any(|r| r.error == DrawnError::Diverged) {
             rank += 1;
         }
         let runs = method.iter().filter_map(|run| {
             let height = inner.at(0.0, y.fraction(run.cost)?).1;
             let along = match run.error {
-                Error::Zero => (outer.left + inner.left) / 2.0,
-                Error::Finite(error) => inner.at(x.fraction(error)?, 0.0).0,
-                Error::Diverged => inner.right + cross * (outer.right - inner.right),
+                DrawnError::Zero => (outer.left + inner.left) / 2.0,
+                DrawnError::Finite(error) => inner.at(x.fraction(error)?, 0.0).0,
+                DrawnError::Diverged => inner.right + cross * (outer.right - inner.right),
             };
             // A bar is clipped to the frame.
             let end = |cost: f64| -> Option<f64> {
@@ -276,7 +277,7 @@ fn plot(canvas: &mut Canvas, chart: &WorkPrecision, methods: &[Vec<PlacedRun>], 
             if run.at_most {
                 arrow(canvas, look.index, run.at);
             }
-            if run.error == Error::Diverged {
+            if run.error == DrawnError::Diverged {
                 cross(canvas, look.index, run.at);
             } else {
                 mark(canvas, look, run.at);
@@ -298,7 +299,7 @@ fn plot(canvas: &mut Canvas, chart: &WorkPrecision, methods: &[Vec<PlacedRun>], 
 
 /// The lines between consecutive runs that have a position on the scale.
 fn connected(method: &[PlacedRun]) -> Vec<Vec<Point>> {
-    let on_scale = |run: &PlacedRun| matches!(run.error, Error::Finite(_));
+    let on_scale = |run: &PlacedRun| matches!(run.error, DrawnError::Finite(_));
     let parts = method.chunk_by(|a, b| on_scale(a) && on_scale(b));
     parts.filter(|p| p.len() > 1).map(|p| p.iter().map(|run| run.at).collect()).collect()
 }
@@ -377,10 +378,10 @@ fn describe(chart: &WorkPrecision) -> String {
         }
         let each = runs.iter().take(12).map(|run| {
             let error = match run.error {
-                Error::Zero => String::from("no error"),
-                Error::Finite(error) if run.at_most => format!("error at most {}", short(error)),
-                Error::Finite(error) => format!("error {}", short(error)),
-                Error::Diverged => String::from(DIVERGED),
+                DrawnError::Zero => String::from("no error"),
+                DrawnError::Finite(error) if run.at_most => format!("error at most {}", short(error)),
+                DrawnError::Finite(error) => format!("error {}", short(error)),
+                DrawnError::Diverged => String::from(DIVERGED),
             };
             let note = clean_label(run.note);
             let note = if note.is_empty() { note } else { format!("{note} ") };

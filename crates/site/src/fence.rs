@@ -23,7 +23,7 @@ pub(crate) struct FencePart {
     pub(crate) kind: &'static str,
     /// The element. It is the same as long as the text and the models of the fence are.
     pub(crate) content: String,
-    /// What stands beside the element: the mark, and what replaces it without JavaScript and on paper.
+    /// The HTML beside the element: the mark, and the replacement for pages without JavaScript and for print.
     pub(crate) after: String,
 }
 

@@ -89,11 +89,11 @@ pub(crate) trait Addresses {
 
 /// The elements of the author that are open.
 #[derive(Debug, Default)]
-pub(crate) struct OpenElements {
+pub(crate) struct AuthorElements {
     names: Vec<&'static str>,
 }
 
-impl OpenElements {
+impl AuthorElements {
     /// The number of open elements.
     pub(crate) fn depth(&self) -> usize {
         self.names.len()
@@ -204,7 +204,7 @@ fn read(text: &HtmlString) -> String {
 
 /// A whole text of HTML, such as a question. Formulas between dollar signs become elements that the page draws.
 pub(crate) fn harmless(html: &str, addresses: &mut dyn Addresses) -> String {
-    let mut open = OpenElements::default();
+    let mut open = AuthorElements::default();
     let mut out = open.filter(html, 0, addresses);
     out.push_str(&open.close_to(0));
     with_formulas(&out)

@@ -38,7 +38,7 @@ impl Outline {
         let title = first.map(|h| h.text.clone()).or(title).or(headings.first().map(|h| h.text.clone()));
         let title = title.filter(|title| !title.trim().is_empty()).unwrap_or_else(|| file.to_string());
         let with_id =
-            headings.into_iter().map(|h| (anchors.add(&prose::wanted_id(&h), &h.text), h.text, h.at));
+            headings.into_iter().map(|h| (anchors.add(&prose::requested_id(&h), &h.text), h.text, h.at));
         Outline { title, has_heading, headings: with_id.collect(), fences, masked }
     }
 }
@@ -58,7 +58,7 @@ pub(crate) struct PageBlock {
 
 /// A lab or a quiz in the indexes.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Element {
+pub(crate) struct PageElement {
     pub(crate) id: String,
     pub(crate) title: String,
     pub(crate) is_lab: bool,
@@ -83,7 +83,7 @@ pub(crate) struct LessonPage {
     pub(crate) lead: String,
     pub(crate) has_heading: bool,
     pub(crate) blocks: Vec<PageBlock>,
-    pub(crate) elements: Vec<Element>,
+    pub(crate) elements: Vec<PageElement>,
     pub(crate) sections: Vec<Section>,
     /// Models that the page contains, by name.
     pub(crate) embedded: BTreeMap<String, String>,
@@ -190,19 +190,19 @@ fn render_groups(
     })
 }
 
-fn elements(lesson: &Lesson, ids: &FenceIds) -> Vec<Element> {
+fn elements(lesson: &Lesson, ids: &FenceIds) -> Vec<PageElement> {
     let mut all = Vec::new();
     for block in &lesson.scan.blocks {
         let Some(id) = ids.find(block.span.start) else { continue };
         if let Some(entry) = lesson.labs.iter().find(|entry| entry.span.start == block.span.start) {
             let title = entry.lab.as_ref().map_or("", |lab| lab.title());
             let title = if title.is_empty() { format!("Lab {}", entry.number) } else { title.to_string() };
-            all.push(Element { id: id.to_string(), title, is_lab: true, questions: 0 });
+            all.push(PageElement { id: id.to_string(), title, is_lab: true, questions: 0 });
         } else if let Some(quiz) =
             lesson.quizzes.iter().find(|quiz| crate::fence::contains(&block.span, &quiz.span))
         {
             let (title, questions) = (quiz.title().to_string(), quiz.questions.len());
-            all.push(Element { id: id.to_string(), title, is_lab: false, questions });
+            all.push(PageElement { id: id.to_string(), title, is_lab: false, questions });
         }
     }
     all

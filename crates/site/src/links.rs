@@ -29,8 +29,8 @@ pub(crate) struct Anchors {
 
 impl Anchors {
     /// Adds an id that no element has; a taken one gets a number.
-    pub(crate) fn add(&mut self, wanted: &str, text: &str) -> String {
-        let stem = if wanted.is_empty() { "section" } else { wanted };
+    pub(crate) fn add(&mut self, requested: &str, text: &str) -> String {
+        let stem = if requested.is_empty() { "section" } else { requested };
         let mut id = stem.to_string();
         let mut number = 1;
         while !self.ids.insert(id.clone()) {

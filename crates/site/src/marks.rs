@@ -23,7 +23,7 @@ pub(crate) fn class_of(state: State) -> (&'static str, &'static str) {
         State::False => ("claim-false", "✗"),
         State::Unchecked => ("claim-open", "?"),
         State::Known => ("claim-open", "≈"),
-        State::LeftOut => ("claim-open", "…"),
+        State::Skipped => ("claim-open", "…"),
         State::NotClaimed => ("claim-none", "○"),
     }
 }

@@ -1,6 +1,6 @@
 //! The index of the course, and that of its labs.
 
-use crate::lesson::{Element, LessonPage};
+use crate::lesson::{LessonPage, PageElement};
 use crate::names::address_from;
 use crate::text::{address, escape};
 use labspec::report::counted;
@@ -45,7 +45,7 @@ fn element_list(page: &LessonPage, from: &str) -> String {
     out
 }
 
-fn element_address(page: &LessonPage, element: &Element, from: &str) -> String {
+fn element_address(page: &LessonPage, element: &PageElement, from: &str) -> String {
     format!("{}#{}", address_from(from, &page.name), address(&element.id))
 }
 

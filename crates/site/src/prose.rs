@@ -1,6 +1,6 @@
-//! The prose of a lesson as HTML: Markdown without its fences, in groups that stand by themselves.
+//! The prose of a lesson as HTML: Markdown without its fences, in self-contained groups.
 
-use crate::html::{Addresses, OpenElements};
+use crate::html::{Addresses, AuthorElements};
 use crate::marks::TextMark;
 use crate::masked::{Masked, PLACEHOLDER};
 use crate::text::{escape, slug};
@@ -59,11 +59,11 @@ fn title_in(metadata: &str) -> Option<String> {
 }
 
 /// The id that a heading asks for.
-pub(crate) fn wanted_id(heading: &Heading) -> String {
+pub(crate) fn requested_id(heading: &Heading) -> String {
     heading.id.clone().filter(|id| !id.is_empty()).unwrap_or_else(|| slug(&heading.text))
 }
 
-/// A part of a lesson that stands by itself: no element of its HTML reaches out of it.
+/// A self-contained part of a lesson: no element of its HTML extends beyond it.
 #[derive(Debug, Default)]
 pub(crate) struct Group {
     /// Its range in the masked text.
@@ -92,7 +92,7 @@ pub(crate) fn render(context: &mut RenderContext<'_>) -> Vec<Group> {
         around: context,
         events: Vec::new(),
         groups: Vec::new(),
-        open: OpenElements::default(),
+        open: AuthorElements::default(),
         bases: Vec::new(),
         ends: Vec::new(),
         heading: 0,
@@ -138,7 +138,7 @@ struct Renderer<'r, 's> {
     around: &'r mut RenderContext<'s>,
     events: Vec<Event<'r>>,
     groups: Vec<Group>,
-    open: OpenElements,
+    open: AuthorElements,
     /// For each open block of Markdown, the author's elements that were open before it.
     bases: Vec<usize>,
     /// For each open link or image, the end tag that replaces its own.
@@ -285,7 +285,7 @@ impl<'r> Renderer<'r, '_> {
                     let dest_url = CowStr::from(address);
                     self.events.push(Event::Start(Tag::Image { link_type, dest_url, title, id }));
                 }
-                None => self.start_left_out(&dest_url),
+                None => self.start_missing_image(&dest_url),
             },
             Tag::Table(alignments) => {
                 let open = "<div class=\"scroll\" role=\"region\" aria-label=\"Table\" tabindex=\"0\">";
@@ -320,7 +320,7 @@ impl<'r> Renderer<'r, '_> {
     }
 
     /// An image that the page does not show: its text, as a link where the image is on the web.
-    fn start_left_out(&mut self, target: &str) {
+    fn start_missing_image(&mut self, target: &str) {
         match self.around.addresses.link(target).filter(|address| address.starts_with("http")) {
             Some(address) => {
                 self.ends.push(Some("</a>"));

@@ -8,7 +8,7 @@ use serde::Serialize;
 const MAX_SECTION: usize = 20_000;
 
 #[derive(Serialize)]
-struct Entry<'e> {
+struct IndexEntry<'e> {
     /// The address from the root of the site.
     url: String,
     title: &'e str,
@@ -16,15 +16,15 @@ struct Entry<'e> {
     text: String,
 }
 
-/// The index as JSON. It is a file of its own, which a page fetches when somebody searches.
+/// The index as JSON. It is a separate file, which a page fetches at the first search.
 pub(crate) fn search_index(pages: &[LessonPage]) -> String {
-    let entries: Vec<Entry<'_>> = pages
+    let entries: Vec<IndexEntry<'_>> = pages
         .iter()
         .flat_map(|page| {
             page.sections.iter().map(|section| {
                 let anchor =
                     if section.id.is_empty() { String::new() } else { format!("#{}", address(&section.id)) };
-                Entry {
+                IndexEntry {
                     url: format!("{}{anchor}", address(&page.name)),
                     title: &page.title,
                     heading: &section.heading,

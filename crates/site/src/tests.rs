@@ -3,7 +3,7 @@
 use crate::html::Addresses;
 use crate::marks::TextMark;
 use crate::masked::Masked;
-use crate::prose::{RenderContext, outline, render, wanted_id};
+use crate::prose::{RenderContext, outline, render, requested_id};
 use labspec::markdown::scan;
 use labspec::source::SourceFile;
 
@@ -104,7 +104,7 @@ impl Random {
 fn groups(text: &str) -> Vec<String> {
     let scan = scan(&SourceFile::new("a.md", text));
     let masked = Masked::new(text, &scan);
-    let ids: Vec<String> = outline(&masked).0.iter().map(wanted_id).collect();
+    let ids: Vec<String> = outline(&masked).0.iter().map(requested_id).collect();
     let marks: Vec<TextMark> = (0..text.len())
         .step_by(7)
         .map(|at| TextMark { span: at..at + 3, class: "claim-true", label: "<b>\"".into() })

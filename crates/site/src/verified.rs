@@ -15,7 +15,7 @@ pub(crate) fn verified_owners(ledger: &Ledger, path: &str) -> BTreeMap<String, u
     for entry in ledger.entries().iter().filter(|e| *e.path == *path) {
         let is_true = matches!(entry.state, State::True(_));
         match entry.subject {
-            Subject::File if matches!(entry.state, State::LeftOut | State::Unchecked) => {
+            Subject::File if matches!(entry.state, State::Skipped | State::Unchecked) => {
                 return BTreeMap::new();
             }
             Subject::File | Subject::Option => {}
@@ -67,11 +67,11 @@ mod tests {
         assert_eq!(earned(&[lab]), [], "a lab without claims");
         let quote = (Subject::Quote, "lab #1", good);
         assert_eq!(earned(&[lab, quote, quote]), [("lab #1".to_string(), 2)]);
-        for state in [State::False, State::Unchecked, State::LeftOut, State::Known, State::NotClaimed] {
+        for state in [State::False, State::Unchecked, State::Skipped, State::Known, State::NotClaimed] {
             assert_eq!(earned(&[lab, quote, (Subject::Quote, "lab #1", state)]), [], "{state:?}");
             assert_eq!(earned(&[quote, (Subject::Lab, "lab #1", state)]), [], "{state:?}");
         }
         assert_eq!(earned(&[quote, (Subject::Answer, "quiz q, question 1", State::False)]).len(), 1);
-        assert_eq!(earned(&[quote, (Subject::File, "a.md", State::LeftOut)]), []);
+        assert_eq!(earned(&[quote, (Subject::File, "a.md", State::Skipped)]), []);
     }
 }

@@ -121,10 +121,16 @@ fn pairs(
     if x.len() == y.len() { Ok((y, x)) } else { Err("the two lists have different lengths".into()) }
 }
 
-fn fold(w: &EngineAccess<'_>, heap: &Heap, args: &[Value], of: fn(f64, f64) -> f64) -> Result<Value, String> {
+fn fold(
+    w: &EngineAccess<'_>,
+    heap: &Heap,
+    args: &[Value],
+    combine: fn(f64, f64) -> f64,
+) -> Result<Value, String> {
     let (list, _) = numbers(w, heap, args.first())?;
     // If the value of one member is NaN, the result is NaN.
-    let all = list.iter().copied().reduce(|a, b| if a.is_nan() || b.is_nan() { f64::NAN } else { of(a, b) });
+    let all =
+        list.iter().copied().reduce(|a, b| if a.is_nan() || b.is_nan() { f64::NAN } else { combine(a, b) });
     Ok(Value::Number(all.unwrap_or(f64::NAN)))
 }
 

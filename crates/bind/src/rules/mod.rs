@@ -1,6 +1,6 @@
-//! The rules of the language over the engine: what only somebody knows who knows both, each on a page of its own.
+//! Lint rules that need both the language and the engine. Each rule has its own file.
 
 pub use labspec_finding::Rule;
 
-// Every file of this folder, by the build script.
+// The build script lists the files of this folder.
 include!(concat!(env!("OUT_DIR"), "/rules.rs"));

@@ -1,6 +1,6 @@
 //! `labspec init`: a folder for lessons, with a first lesson whose claims are true.
 
-use super::common::{Failure, Outcome};
+use super::common::{CommandOutcome, Failure};
 use super::output::write_file;
 use super::output_kind::OutputKind;
 use super::stdio::print;
@@ -23,7 +23,7 @@ const FILES: [(&str, &str); 4] = [
     (".github/workflows/labspec.yml", include_str!("workflow.yml")),
 ];
 
-pub(super) fn init(a: &InitArguments) -> Result<Outcome, Failure> {
+pub(super) fn init(a: &InitArguments) -> Result<CommandOutcome, Failure> {
     let places: Vec<(PathBuf, &str)> =
         FILES.iter().map(|(name, text)| (a.folder.join(name), *text)).collect();
     // Nothing is written if one of the files already exists.
@@ -44,5 +44,5 @@ pub(super) fn init(a: &InitArguments) -> Result<Outcome, Failure> {
     let lessons = a.folder.join("lessons");
     message.push_str(&format!("\nnow run: labspec check {}\n", printable_path(&lessons)));
     print(&message)?;
-    Ok(Outcome::Clean)
+    Ok(CommandOutcome::Clean)
 }

@@ -13,9 +13,9 @@ pub(super) fn chart(report: &PrecisionResults, title: &str) -> String {
     let target = first.and_then(|i| report.targets.get(i));
     // An error below the uncertainty of the reference is drawn at that uncertainty.
     let uncertainty = target.map_or(0.0, |t| t.uncertain);
-    let of = |errors: &[Errors]| first.and_then(|i| errors.get(i)).copied();
+    let first_error = |errors: &[Errors]| first.and_then(|i| errors.get(i)).copied();
     let point = |errors: &[Errors], cost: f64| {
-        let e = of(errors).filter(|e| e.largest.is_finite())?;
+        let e = first_error(errors).filter(|e| e.largest.is_finite())?;
         let error = if e.below { e.largest.max(uncertainty) } else { e.largest };
         Some(MethodPoint { cost, error, at_most: e.below, ..MethodPoint::default() })
     };

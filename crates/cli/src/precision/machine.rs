@@ -3,7 +3,7 @@
 use super::super::report_json::with_nonfinite;
 use labspec::report::key;
 use labspec_numerics::precision::{
-    Advice, BesideRow, Compared, Errors, Event, LeftOut, NearbyStarts, PrecisionResults, PrecisionRow,
+    Advice, BesideRow, Compared, Errors, Event, NearbyStarts, OmittedNumber, PrecisionResults, PrecisionRow,
     RunCost, RunStatus,
 };
 use serde::Serialize;
@@ -50,7 +50,8 @@ struct PrecisionReport<'a> {
     length: f64,
     rows: Vec<Map<String, Value>>,
     events: Vec<Map<String, Value>>,
-    left_out: &'a [LeftOut],
+    #[serde(rename = "leftOut")]
+    omitted: &'a [OmittedNumber],
     front: &'a [usize],
     advice: &'a [Advice],
     units: Vec<Option<&'a str>>,
@@ -69,7 +70,7 @@ struct PrecisionReport<'a> {
 /// A setting with the errors of each trace. `work` is in units of the engine.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
-struct RunRow<'a> {
+struct PrecisionRunRow<'a> {
     integrator: &'static str,
     timestep: f64,
     solver: Option<String>,
@@ -124,9 +125,9 @@ struct BesideRunRow<'a> {
 pub(super) fn machine(report: &PrecisionResults) -> Map<String, Value> {
     let targets = || report.targets.iter();
     // A closed form has no uncertainty: its entry is missing, not lost.
-    let of = |f: fn(&Compared) -> Option<f64>| targets().map(f).collect::<Vec<_>>();
-    let uncertainty = of(|t| (!t.closed).then_some(t.uncertain));
-    let (unseen, until) = (of(|t| Some(t.invisible_error)), of(|t| t.until));
+    let column = |f: fn(&Compared) -> Option<f64>| targets().map(f).collect::<Vec<_>>();
+    let uncertainty = column(|t| (!t.closed).then_some(t.uncertain));
+    let (unseen, until) = (column(|t| Some(t.invisible_error)), column(|t| t.until));
     let conserved = [report.energy, report.momentum[0], report.momentum[1]];
     let row = PrecisionReport {
         traces: targets().map(|t| t.label.as_str()).collect(),
@@ -135,7 +136,7 @@ pub(super) fn machine(report: &PrecisionResults) -> Map<String, Value> {
         length: report.length,
         rows: report.rows.iter().map(|row| run_row(row, report)).collect(),
         events: report.events.iter().map(event_row).collect(),
-        left_out: &report.left_out,
+        omitted: &report.omitted,
         front: &report.front,
         advice: &report.advice,
         units: targets().map(|t| t.unit.as_deref()).collect(),
@@ -182,8 +183,8 @@ fn event_row(event: &Event) -> Map<String, Value> {
 
 fn run_row(row: &PrecisionRow, report: &PrecisionResults) -> Map<String, Value> {
     let at_most = row.events.iter().zip(&report.events).map(|(off, event)| *off <= event.uncertain);
-    let of = |f: fn(&Errors) -> Option<f64>| row.errors.iter().map(f).collect::<Vec<_>>();
-    let row = RunRow {
+    let column = |f: fn(&Errors) -> Option<f64>| row.errors.iter().map(f).collect::<Vec<_>>();
+    let row = PrecisionRunRow {
         integrator: row.setting.integrator.name,
         timestep: row.setting.timestep,
         solver: row.setting.solver.map(|s| s.name()),
@@ -195,11 +196,11 @@ fn run_row(row: &PrecisionRow, report: &PrecisionResults) -> Map<String, Value> 
         compared: row.errors.iter().map(|e| e.samples).collect(),
         events_below: at_most.collect(),
         below: row.errors.iter().map(|e| e.below).collect(),
-        errors: of(|e| Some(e.largest)),
-        at: of(|e| Some(e.at)),
-        rms: of(|e| Some(e.rms)),
-        end: of(|e| Some(e.end)),
-        orders: of(|e| e.order),
+        errors: column(|e| Some(e.largest)),
+        at: column(|e| Some(e.at)),
+        rms: column(|e| Some(e.rms)),
+        end: column(|e| Some(e.end)),
+        orders: column(|e| e.order),
         events: row.events.iter().copied().map(Some).collect(),
         conserved: [row.energy, row.momentum[0], row.momentum[1]],
         penetration: row.penetration,

@@ -4,7 +4,7 @@ mod chart;
 mod machine;
 mod table;
 
-use super::common::{Failure, Outcome, interrupted};
+use super::common::{CommandOutcome, Failure, interrupted};
 use super::lab_args::LabArguments;
 use super::output::write_file;
 use super::output::{requested_outputs, write_png, write_with};
@@ -18,7 +18,7 @@ use labspec::run::{INTEGRATORS, Integrator};
 use labspec::source::read_text;
 use labspec::verify::significant;
 use labspec_numerics::precision::{
-    Axis, PrecisionOptions, PrecisionResults, Recording, RunStatus, compare, milliseconds,
+    OtherRecording, PrecisionOptions, PrecisionResults, RunStatus, VariedSetting, compare, milliseconds,
 };
 use machine::{csv, machine};
 use std::fmt::Write;
@@ -70,7 +70,7 @@ enum PrecisionFormat {
     Csv,
 }
 
-pub(super) fn precision(a: &PrecisionArguments) -> Result<Outcome, Failure> {
+pub(super) fn precision(a: &PrecisionArguments) -> Result<CommandOutcome, Failure> {
     let target = a.handled.open()?;
     a.handled.check_outputs_writable(
         &target,
@@ -115,7 +115,11 @@ pub(super) fn precision(a: &PrecisionArguments) -> Result<Outcome, Failure> {
         PrecisionFormat::Json => print_report("precision", &machine(&report))?,
         PrecisionFormat::Csv => stream(|out| csv(&report, out))?,
     }
-    Ok(if report.reference.is_none() || has_no_result(&report) { Outcome::Findings } else { Outcome::Clean })
+    Ok(if report.reference.is_none() || has_no_result(&report) {
+        CommandOutcome::Findings
+    } else {
+        CommandOutcome::Clean
+    })
 }
 
 /// Whether the run with the lab's own setting failed, or the truth is not known to its end.
@@ -125,11 +129,11 @@ fn has_no_result(report: &PrecisionResults) -> bool {
 }
 
 impl Vary {
-    fn axis(self) -> Axis {
+    fn axis(self) -> VariedSetting {
         match self {
-            Vary::Iterations => Axis::Iterations,
-            Vary::Tolerance => Axis::Tolerance,
-            Vary::Cone => Axis::Cone,
+            Vary::Iterations => VariedSetting::Iterations,
+            Vary::Tolerance => VariedSetting::Tolerance,
+            Vary::Cone => VariedSetting::Cone,
         }
     }
 }
@@ -137,10 +141,10 @@ impl Vary {
 /// The maximum size of a recording in bytes.
 const MAX_RECORDING: u64 = 256 << 20;
 
-fn recording(path: &Path) -> Result<Recording, Failure> {
+fn recording(path: &Path) -> Result<OtherRecording, Failure> {
     let named = |e: String| format!("cannot use {}: {e}", printable_path(path));
     let text = read_text(path, MAX_RECORDING, "a recording")?;
-    Recording::read(&text).map_err(named)
+    OtherRecording::read(&text).map_err(named)
 }
 
 fn integrators(names: &[String]) -> Result<Vec<Integrator>, Failure> {
@@ -180,7 +184,7 @@ fn human(report: &PrecisionResults) -> String {
     if let Some(beside) = &report.beside {
         write_other_runs(report, beside, &mut text);
     }
-    for out in &report.left_out {
+    for out in &report.omitted {
         let _ = writeln!(text, "Not compared: {}, because {}.", printable(&out.label), out.reason);
     }
     if let Some(nearby) = &report.nearby {
@@ -188,13 +192,13 @@ fn human(report: &PrecisionResults) -> String {
             Some(t) => writeln!(
                 text,
                 "Two starts that are {:e} apart agree until {} s: no method can predict what comes later.",
-                nearby.apart,
+                nearby.distance,
                 significant(t)
             ),
             None => writeln!(
                 text,
                 "Two starts that are {:e} apart agree to the end, but the methods do not converge with the step: this is not chaos; forces that jump, as at an impact, are likely.",
-                nearby.apart
+                nearby.distance
             ),
         };
     }
@@ -209,10 +213,10 @@ fn human(report: &PrecisionResults) -> String {
 
 /// The times at which runs are compared.
 fn compared_at(report: &PrecisionResults) -> String {
-    let apart = report.length / report.samples as f64;
+    let interval = report.length / report.samples as f64;
     let shortest = report.rows.iter().map(|r| r.setting.timestep).fold(f64::INFINITY, f64::min);
-    match shortest < 0.9 * apart {
-        true => format!("after each step, but at most every {} ms", milliseconds(apart)),
+    match shortest < 0.9 * interval {
+        true => format!("after each step, but at most every {} ms", milliseconds(interval)),
         false => "after each step".to_string(),
     }
 }

@@ -15,7 +15,7 @@ pub(super) fn setting(row: &PrecisionRow) -> String {
 }
 
 /// A column of the table: its meaning, and a cell for each row.
-struct Column {
+struct TableColumn {
     legend: String,
     cells: Vec<String>,
 }
@@ -64,11 +64,14 @@ pub(super) fn table(report: &PrecisionResults, text: &mut String) {
     );
 }
 
-fn columns(report: &PrecisionResults) -> Vec<Column> {
-    let mut list: Vec<Column> = Vec::new();
+fn columns(report: &PrecisionResults) -> Vec<TableColumn> {
+    let mut list: Vec<TableColumn> = Vec::new();
     for (i, target) in report.targets.iter().enumerate().filter(|(_, t)| !t.blank) {
-        let of = |row: &PrecisionRow| row.errors.get(i).map_or("–".into(), |e| error(e, target));
-        list.push(Column { legend: describe_truth(target), cells: report.rows.iter().map(of).collect() });
+        let cell_of = |row: &PrecisionRow| row.errors.get(i).map_or("–".into(), |e| error(e, target));
+        list.push(TableColumn {
+            legend: describe_truth(target),
+            cells: report.rows.iter().map(cell_of).collect(),
+        });
     }
     for (k, event) in report.events.iter().enumerate().filter(|(_, e)| e.time.is_finite()) {
         let legend = format!(
@@ -77,19 +80,19 @@ fn columns(report: &PrecisionResults) -> Vec<Column> {
             certain_digits(event.time, event.uncertain),
             cell(event.uncertain)
         );
-        let of = |row: &PrecisionRow| {
+        let cell_of = |row: &PrecisionRow| {
             error_or_doubt(row.events.get(k).copied().unwrap_or(f64::NAN), event.uncertain)
         };
-        list.push(Column { legend, cells: report.rows.iter().map(of).collect() });
+        list.push(TableColumn { legend, cells: report.rows.iter().map(cell_of).collect() });
     }
-    let mut keeps = |size: Option<f64>, what: &str, unit: &str, of: fn(&PrecisionRow) -> Option<f64>| {
+    let mut keeps = |size: Option<f64>, what: &str, unit: &str, size_of: fn(&PrecisionRow) -> Option<f64>| {
         if let Some(size) = size {
             let legend = format!(
                 "the scene keeps its {what} ({} {unit} move): largest change in {unit}",
                 significant(size)
             );
-            let change = |r: &PrecisionRow| error_or_doubt(of(r).unwrap_or(f64::NAN), ROUNDING * size);
-            list.push(Column { legend, cells: report.rows.iter().map(change).collect() });
+            let change = |r: &PrecisionRow| error_or_doubt(size_of(r).unwrap_or(f64::NAN), ROUNDING * size);
+            list.push(TableColumn { legend, cells: report.rows.iter().map(change).collect() });
         }
     };
     keeps(report.energy, "energy", "J", |r| r.energy);
@@ -102,8 +105,9 @@ fn columns(report: &PrecisionResults) -> Vec<Column> {
             certain_digits(report.penetration, uncertainty),
             cell(uncertainty)
         );
-        let of = |r: &PrecisionRow| error_or_doubt((r.penetration - report.penetration).abs(), uncertainty);
-        list.push(Column { legend, cells: report.rows.iter().map(of).collect() });
+        let cell_of =
+            |r: &PrecisionRow| error_or_doubt((r.penetration - report.penetration).abs(), uncertainty);
+        list.push(TableColumn { legend, cells: report.rows.iter().map(cell_of).collect() });
     }
     list
 }
@@ -146,7 +150,7 @@ pub(super) fn named(target: &Compared) -> String {
 /// The truth with which a column of errors was computed, and the smallest visible error.
 fn describe_truth(target: &Compared) -> String {
     let unit = target.unit.as_ref().map_or(String::new(), |u| format!(" {}", printable(u)));
-    let of = if unit.is_empty() { String::new() } else { format!(" in{unit}") };
+    let in_unit = if unit.is_empty() { String::new() } else { format!(" in{unit}") };
     let against = match target.closed {
         true => "the closed form".to_string(),
         false => format!("the reference (± {:.0e}{unit})", target.uncertain),
@@ -155,7 +159,7 @@ fn describe_truth(target: &Compared) -> String {
         format!("; compared until {} s, because the reference is unknown beyond", significant(t))
     });
     format!(
-        "{}: largest error{of} against {against}; {} {}{unit}{until}",
+        "{}: largest error{in_unit} against {against}; {} {}{unit}{until}",
         printable(&target.label),
         if target.readout { "its digits hide" } else { "its plot hides" },
         two_digits(target.invisible_error)
@@ -167,10 +171,10 @@ pub(super) fn write_other_runs(report: &PrecisionResults, beside: &Beside, text:
     let _ = writeln!(text, "\nBeside: {}, largest errors against the same truth", printable(&beside.engine));
     let columns = || report.targets.iter().enumerate().filter(|(_, t)| !t.blank).take(MAX_COLUMNS);
     for row in &beside.rows {
-        let cell = |(i, target): (usize, &Compared)| {
+        let cell_of = |(i, target): (usize, &Compared)| {
             format!(" {:>10}", row.errors.get(i).map_or("–".into(), |e| error(e, target)))
         };
-        let cells: String = columns().map(cell).collect();
+        let cells: String = columns().map(cell_of).collect();
         let h = format!("{} ms", milliseconds(row.timestep));
         let _ = writeln!(text, "  {:<12} {h:>10} {:>29.0}{cells}", printable(&row.integrator), row.cost);
     }

@@ -1,10 +1,10 @@
 //! The output of `labspec stability` for programs.
 
 use super::super::report_json::{NonFinite, nonfinite, with_nonfinite};
-use super::left_out;
+use super::describe_skipped;
 use labspec::bind::Programs;
 use labspec::report::key;
-use labspec::stress::{Action, Fault, Interaction, Kind};
+use labspec::stress::{Action, Fault, Interaction, InteractionKind};
 use labspec_numerics::stability::{
     DivergenceOfStarts, MapCell, Margin, Sensitivity, StabilityFinding, StabilityMap, StressReport,
 };
@@ -17,11 +17,13 @@ use serde_json::{Map, Value};
 pub(super) struct StabilityReport<'a> {
     length: f64,
     tried: Vec<CountRow>,
-    runs: Vec<RunRow<'a>>,
+    runs: Vec<StabilityRunRow<'a>>,
     shortest: Option<f64>,
-    pairs_left_out: usize,
-    left_out: Vec<String>,
-    findings: Vec<FindingRow<'a>>,
+    #[serde(rename = "pairsLeftOut")]
+    skipped_pairs: usize,
+    #[serde(rename = "leftOut")]
+    skipped: Vec<String>,
+    findings: Vec<StabilityFindingRow<'a>>,
     window: f64,
     margins: Vec<MarginRow<'a>>,
     sensitivity: SensitivityRow<'a>,
@@ -36,11 +38,12 @@ struct CountRow {
     kind: String,
     made: usize,
     cut: usize,
-    left_out: usize,
+    #[serde(rename = "leftOut")]
+    skipped: usize,
 }
 
 #[derive(Serialize)]
-struct RunRow<'a> {
+struct StabilityRunRow<'a> {
     kind: String,
     setting: Vec<ActionRow<'a>>,
     covered: f64,
@@ -76,7 +79,7 @@ struct EvidenceRow {
 }
 
 #[derive(Serialize)]
-struct FindingRow<'a> {
+struct StabilityFindingRow<'a> {
     #[serde(flatten)]
     fault: FaultRow<'a>,
     touched: bool,
@@ -102,7 +105,8 @@ struct MarginRow<'a> {
     knob: String,
     who: &'a str,
     unit: &'static str,
-    now: f64,
+    #[serde(rename = "now")]
+    current: f64,
     largest: Option<f64>,
     breaks: Option<f64>,
     how: Option<BreakRow<'a>>,
@@ -120,7 +124,8 @@ struct BreakRow<'a> {
 #[derive(Serialize)]
 struct SensitivityRow<'a> {
     length: f64,
-    apart: f64,
+    #[serde(rename = "apart")]
+    distance: f64,
     parting: Option<Map<String, Value>>,
     exponent: Option<ExponentRow>,
     horizons: Vec<HorizonRow<'a>>,
@@ -159,9 +164,9 @@ pub(super) fn machine<'a>(report: &'a StressReport, programs: &'a Programs) -> S
         kind: key(t.kind.description()),
         made: t.made,
         cut: t.cut,
-        left_out: t.left_out,
+        skipped: t.skipped,
     });
-    let runs = report.runs.iter().map(|run| RunRow {
+    let runs = report.runs.iter().map(|run| StabilityRunRow {
         kind: key(run.interaction.kind.description()),
         setting: actions(&run.interaction, programs),
         covered: run.covered,
@@ -173,8 +178,8 @@ pub(super) fn machine<'a>(report: &'a StressReport, programs: &'a Programs) -> S
         tried: tried.collect(),
         runs: runs.collect(),
         shortest: report.shortest,
-        pairs_left_out: report.pairs_left_out,
-        left_out: left_out(report),
+        skipped_pairs: report.skipped_pairs,
+        skipped: describe_skipped(report),
         findings: report.found.iter().map(|f| finding_row(f, programs)).collect(),
         window: report.window,
         margins: report.margins.iter().map(margin_row).collect(),
@@ -185,15 +190,15 @@ pub(super) fn machine<'a>(report: &'a StressReport, programs: &'a Programs) -> S
     }
 }
 
-fn finding_row<'a>(found: &'a StabilityFinding, programs: &'a Programs) -> FindingRow<'a> {
+fn finding_row<'a>(found: &'a StabilityFinding, programs: &'a Programs) -> StabilityFindingRow<'a> {
     let remedies = found.remedies.iter().map(|r| {
         let row = RemedyRow { change: &r.change, work: r.work, time_ratio: r.time, error: r.error };
         with_nonfinite(&row, &[("work", &row.work), ("timeRatio", &row.time_ratio)])
     });
     let group = &found.group;
-    FindingRow {
+    StabilityFindingRow {
         fault: fault_row(&group.fault, &group.interaction, programs),
-        touched: group.interaction.kind == Kind::Touched,
+        touched: group.interaction.kind == InteractionKind::Touched,
         settings: group.settings,
         expected: found.expected,
         remedies: remedies.collect(),
@@ -223,7 +228,7 @@ fn margin_row(m: &Margin) -> MarginRow<'_> {
         knob: key(m.knob.description()),
         who: &m.subject,
         unit: m.unit,
-        now: m.now,
+        current: m.current,
         largest: m.largest,
         breaks: m.breaks,
         how: m.how.as_ref().map(|(kind, subject)| BreakRow { kind: key(kind.description()), who: subject }),
@@ -237,7 +242,7 @@ fn sensitivity_row(s: &Sensitivity) -> SensitivityRow<'_> {
     let horizons = s.horizons.iter();
     SensitivityRow {
         length: s.length,
-        apart: s.apart,
+        distance: s.distance,
         parting: s.parting.map(|DivergenceOfStarts { low, high }| {
             with_nonfinite(&PartingRow { low, high }, &[("low", &low), ("high", &high)])
         }),

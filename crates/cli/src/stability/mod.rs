@@ -2,7 +2,7 @@
 
 mod machine;
 
-use super::common::{Failure, Outcome, interrupted};
+use super::common::{CommandOutcome, Failure, interrupted};
 use super::lab_args::LabArguments;
 use super::output::write_file;
 use super::output::{requested_outputs, write_png};
@@ -54,7 +54,7 @@ enum StabilityFormat {
     Json,
 }
 
-pub(super) fn stability(a: &StabilityArguments) -> Result<Outcome, Failure> {
+pub(super) fn stability(a: &StabilityArguments) -> Result<CommandOutcome, Failure> {
     let target = a.handled.open()?;
     a.handled.check_outputs_writable(
         &target,
@@ -78,7 +78,7 @@ pub(super) fn stability(a: &StabilityArguments) -> Result<Outcome, Failure> {
         StabilityFormat::Human => print(&human(&report, &target.programs))?,
         StabilityFormat::Json => print_report("stability", &machine(&report, &target.programs))?,
     }
-    Ok(if report.fine() { Outcome::Clean } else { Outcome::Findings })
+    Ok(if report.fine() { CommandOutcome::Clean } else { CommandOutcome::Findings })
 }
 
 /// Parses `CONTROL1,CONTROL2`. Labels may contain commas: the text is split after the label of a control,
@@ -105,7 +105,7 @@ fn human(report: &StressReport, programs: &Programs) -> String {
     for found in &report.found {
         finding(found, programs, &mut text);
     }
-    for line in left_out(report) {
+    for line in describe_skipped(report) {
         let _ = writeln!(text, "Not tested: {line}.");
     }
     if report.found.is_empty() {
@@ -207,9 +207,9 @@ fn margin(m: &Margin) -> [String; 6] {
         .map_or(String::new(), |(kind, subject)| format!("{}: {}", kind.description(), printable(subject)));
     [
         format!("{}{subject}", m.knob.description()),
-        value(m.now),
+        value(m.current),
         largest,
-        m.largest.map_or(String::new(), |x| two_digits(x / m.now)),
+        m.largest.map_or(String::new(), |x| two_digits(x / m.current)),
         m.bound.map_or("–".into(), value),
         how,
     ]
@@ -218,7 +218,7 @@ fn margin(m: &Margin) -> [String; 6] {
 /// Writes how strongly the lab depends on its initial state.
 fn sensitivity(s: &Sensitivity, text: &mut String) {
     if let Some(p) = &s.parting {
-        let most = 1.0 / s.apart;
+        let most = 1.0 / s.distance;
         let times = match [p.low, p.high].map(two_digits) {
             _ if p.low >= most => format!("more than {most:e}"),
             [low, _] if p.high >= most => format!("{low} to more than {most:e}"),
@@ -247,7 +247,7 @@ fn sensitivity(s: &Sensitivity, text: &mut String) {
             let _ = writeln!(
                 text,
                 "For a start that is off by {:e}, \"{}\" shows other digits from {} s on.",
-                s.apart,
+                s.distance,
                 printable(&h.label),
                 labspec::run::time(t)
             );
@@ -323,11 +323,11 @@ fn chart(map: &StabilityMap, title: &str) -> String {
 }
 
 /// Everything that was not tried, or not completely.
-fn left_out(report: &StressReport) -> Vec<String> {
+fn describe_skipped(report: &StressReport) -> Vec<String> {
     let mut list = Vec::new();
     for t in &report.tried {
-        if t.left_out > 0 {
-            list.push(format!("{} of {}", t.left_out, t.kind.description()));
+        if t.skipped > 0 {
+            list.push(format!("{} of {}", t.skipped, t.kind.description()));
         }
     }
     let cut: usize = report.tried.iter().map(|t| t.cut).sum();
@@ -338,9 +338,9 @@ fn left_out(report: &StressReport) -> Vec<String> {
             two_digits(shortest)
         ));
     }
-    if report.pairs_left_out > 0 {
-        list.push(format!("{} pairs of settings, because there are too many", report.pairs_left_out));
+    if report.skipped_pairs > 0 {
+        list.push(format!("{} pairs of settings, because there are too many", report.skipped_pairs));
     }
-    list.extend(report.left_out.iter().cloned());
+    list.extend(report.skipped.iter().cloned());
     list
 }

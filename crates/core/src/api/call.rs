@@ -29,8 +29,8 @@ pub use crate::dynamics::jacobian::Jacobian;
 pub use spatial_queries::*;
 pub use work::*;
 
-fn wanted(what: &'static str, wanted: usize, found: usize) -> Result<(), Error> {
-    if wanted == found { Ok(()) } else { Err(Error::Length { what, wanted, found }) }
+fn check_length(what: &'static str, expected: usize, found: usize) -> Result<(), Error> {
+    if expected == found { Ok(()) } else { Err(Error::Length { what, expected, found }) }
 }
 
 fn exists(kind: &'static str, id: usize, count: usize) -> Result<(), Error> {
@@ -207,7 +207,7 @@ pub fn inverse<S: Scope>(m: &Model, d: &mut Data<S>) -> Result<(), Error> {
 pub fn rne<S: Scope>(m: &Model, d: &mut Data<S>, qacc: Option<&[f64]>) -> Result<Vec<f64>, Error> {
     d.has(&[data::cdof, data::cdof_dot, data::cinert, data::cvel])?;
     if let Some(a) = qacc {
-        wanted("an acceleration", m.nv, a.len())?;
+        check_length("an acceleration", m.nv, a.len())?;
     }
     let mut out = vec![0.0; m.nv];
     let (d, s) = d.engine(m)?;
@@ -258,8 +258,8 @@ pub fn full_m<S: Scope>(m: &Model, d: &Data<S>) -> Result<Vec<f64>, Error> {
 pub fn mul_m<S: Scope>(m: &Model, d: &Data<S>, v: &[f64], out: &mut [f64]) -> Result<(), Error> {
     d.belongs_to(m)?;
     d.has(&[data::M])?;
-    wanted("the vector", m.nv, v.len())?;
-    wanted("the product", m.nv, out.len())?;
+    check_length("the vector", m.nv, v.len())?;
+    check_length("the product", m.nv, out.len())?;
     mass::mul(m, &d.fields.M, v, out, 0..m.nv);
     Ok(())
 }
@@ -268,7 +268,7 @@ pub fn mul_m<S: Scope>(m: &Model, d: &Data<S>, v: &[f64], out: &mut [f64]) -> Re
 pub fn solve_m<S: Scope>(m: &Model, d: &Data<S>, x: &mut [f64]) -> Result<(), Error> {
     d.belongs_to(m)?;
     d.has(&[data::qLD, data::qLDiagInv])?;
-    wanted("the vector", m.nv, x.len())?;
+    check_length("the vector", m.nv, x.len())?;
     mass::solve(m, &d.fields.qLD, &d.fields.qLDiagInv, x, 0..m.nv);
     Ok(())
 }
@@ -277,7 +277,7 @@ pub fn solve_m<S: Scope>(m: &Model, d: &Data<S>, x: &mut [f64]) -> Result<(), Er
 pub fn solve_m2<S: Scope>(m: &Model, d: &Data<S>, x: &mut [f64]) -> Result<(), Error> {
     d.belongs_to(m)?;
     d.has(&[data::qLD, data::qLDiagInv])?;
-    wanted("the vector", m.nv, x.len())?;
+    check_length("the vector", m.nv, x.len())?;
     mass::solve_m2(m, &d.fields, x);
     Ok(())
 }
@@ -329,7 +329,7 @@ pub fn apply_ft<S: Scope>(
     d.belongs_to(m)?;
     d.has(&JACOBIAN_READS)?;
     exists("body", body, m.nbody)?;
-    wanted("the force", m.nv, qfrc.len())?;
+    check_length("the force", m.nv, qfrc.len())?;
     jacobian::apply_ft(m, &d.fields, force, torque, point, body, qfrc).ok_or(Error::NoId {
         kind: "body",
         id: body,
@@ -368,16 +368,16 @@ pub fn object_acceleration<S: Scope>(
 
 /// qpos ← qpos advanced for a time `h` with velocity `v` (`mj_integratePos`).
 pub fn integrate_pos(m: &Model, qpos: &mut [f64], v: &[f64], h: f64) -> Result<(), Error> {
-    wanted("the position", m.nq, qpos.len())?;
-    wanted("the velocity", m.nv, v.len())?;
+    check_length("the position", m.nq, qpos.len())?;
+    check_length("the velocity", m.nv, v.len())?;
     integrate::integrate_pos(m, qpos, v, h);
     Ok(())
 }
 
 /// The velocity that leads from `from` to `to` in a time `h` (`mj_differentiatePos`). Rotations take the shorter direction.
 pub fn differentiate_pos(m: &Model, h: f64, from: &[f64], to: &[f64]) -> Result<Vec<f64>, Error> {
-    wanted("a position", m.nq, from.len())?;
-    wanted("a position", m.nq, to.len())?;
+    check_length("a position", m.nq, from.len())?;
+    check_length("a position", m.nq, to.len())?;
     let mut v = vec![0.0; m.nv];
     integrate::differentiate_pos(m, &mut v, h, from, to);
     Ok(v)

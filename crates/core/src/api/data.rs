@@ -14,7 +14,7 @@ use crate::model::{Fields, Names};
 use crate::step::analysis::AccessSet;
 use crate::step::deciding::{deciding, undecisive_writes};
 use crate::step::reset;
-use crate::step::workspace::{Scratch, Workspace};
+use crate::step::workspace::{StepScratch, Workspace};
 use std::marker::PhantomData;
 use std::ops::Deref;
 use std::sync::Arc;
@@ -68,7 +68,7 @@ mod sealed {
 #[derive(Clone)]
 pub struct Data<S: Scope = Full> {
     pub(super) fields: Fields,
-    pub(super) scratch: Scratch,
+    pub(super) scratch: StepScratch,
     pub(super) names: Arc<Names>,
     pub(super) addresses: Arc<Addresses>,
     /// The identity of the model, and the version of its contents at the last use of the data; 0 if the plan has not been
@@ -218,7 +218,7 @@ impl<S: Scope> Data<S> {
 
     /// The fields and the scratch, after a check that the data belong to the model and that the plan is valid for its parameters.
     #[cfg_attr(not(feature = "small"), inline(always))]
-    pub(super) fn engine(&mut self, m: &Model) -> Result<(&mut Fields, &mut Scratch), Error> {
+    pub(super) fn engine(&mut self, m: &Model) -> Result<(&mut Fields, &mut StepScratch), Error> {
         if self.version != m.contents.version {
             self.catch_up(m, false)?;
         }
@@ -227,7 +227,7 @@ impl<S: Scope> Data<S> {
 
     /// Like [`Data::engine`], for a call that computes all fields.
     #[cfg_attr(not(feature = "small"), inline(always))]
-    pub(super) fn engine_for_pass(&mut self, m: &Model) -> Result<(&mut Fields, &mut Scratch), Error> {
+    pub(super) fn engine_for_pass(&mut self, m: &Model) -> Result<(&mut Fields, &mut StepScratch), Error> {
         if self.version != m.contents.version {
             self.catch_up(m, true)?;
         }
@@ -235,7 +235,7 @@ impl<S: Scope> Data<S> {
     }
 
     #[cfg_attr(not(feature = "small"), inline(always))]
-    fn engine_in_step(&mut self, m: &Model) -> Result<(&mut Fields, &mut Scratch), Error> {
+    fn engine_in_step(&mut self, m: &Model) -> Result<(&mut Fields, &mut StepScratch), Error> {
         if self.touched {
             self.replan_for_inputs(m)?;
         }
@@ -243,7 +243,7 @@ impl<S: Scope> Data<S> {
     }
 
     /// Like [`Data::engine`], for a call that may write inputs. See [`Data::edit`].
-    pub(super) fn engine_to_write(&mut self, m: &Model) -> Result<(&mut Fields, &mut Scratch), Error> {
+    pub(super) fn engine_to_write(&mut self, m: &Model) -> Result<(&mut Fields, &mut StepScratch), Error> {
         self.engine(m)?;
         self.touched = !S::FULL;
         Ok((&mut self.fields, &mut self.scratch))
@@ -328,9 +328,9 @@ impl<S: Scope> Data<S> {
             self.version = m.contents.version;
             return Ok(());
         };
-        let now = self.fields.meter.cost;
-        let calm = now >= self.assumed.settled;
-        let unrest = now.saturating_add(SETTLED.saturating_mul(self.fields.meter.pass()));
+        let current = self.fields.meter.cost;
+        let calm = current >= self.assumed.settled;
+        let unrest = current.saturating_add(SETTLED.saturating_mul(self.fields.meter.pass()));
         let changed = planned.changed(&m.contents);
         let mut narrower = whole && self.assumed.wide && (calm || self.assumed.due);
         if !changed.difference(&self.assumed.any).is_empty() {
@@ -408,7 +408,7 @@ impl<S: Scope> Data<S> {
     pub fn set_qacc(&mut self, qacc: &[f64]) -> Result<(), Error> {
         let to = &mut self.fields.qacc;
         if to.len() != qacc.len() {
-            return Err(Error::Length { what: "an acceleration", wanted: to.len(), found: qacc.len() });
+            return Err(Error::Length { what: "an acceleration", expected: to.len(), found: qacc.len() });
         }
         to.copy_from_slice(qacc);
         Ok(())

@@ -56,7 +56,7 @@ pub enum Error {
         /// A description of the list.
         what: &'static str,
         /// The required number of elements.
-        wanted: usize,
+        expected: usize,
         /// The actual number of elements.
         found: usize,
     },
@@ -134,8 +134,8 @@ impl fmt::Display for Error {
                     _ => "the engine computes it",
                 }
             ),
-            Error::Length { what, wanted, found } => {
-                write!(f, "{what} must have {wanted} numbers, but has {found}")
+            Error::Length { what, expected, found } => {
+                write!(f, "{what} must have {expected} numbers, but has {found}")
             }
             Error::Value { what, must } => write!(f, "{what} must be {must}"),
             Error::Inverse(e) => e.fmt(f),

@@ -55,7 +55,7 @@ fn without_actuators_there_is_no_actuator_gravity_compensation() {
 
 #[test]
 fn actuators_without_controls_are_left_out() {
-    for (actuators, left_out) in [
+    for (actuators, is_omitted) in [
         ("<motor joint='j' gear='-3'/><motor tendon='t'/>", true),
         ("<motor joint='j' ctrlrange='-1 1'/>", true),
         ("<motor joint='j' ctrlrange='.5 1'/>", false),
@@ -66,7 +66,7 @@ fn actuators_without_controls_are_left_out() {
     ] {
         let m = pendulum(&format!("<actuator>{actuators}</actuator>"));
         let plan = Plan::new(&m, &reading());
-        assert_eq!(!plan.keeps(Stage::Actuation), left_out, "{actuators}");
+        assert_eq!(!plan.keeps(Stage::Actuation), is_omitted, "{actuators}");
         let mut written = reading();
         written.writes.insert(data::ctrl);
         assert!(Plan::new(&m, &written).keeps(Stage::Actuation));

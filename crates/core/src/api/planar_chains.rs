@@ -69,8 +69,8 @@ fn check_forces_agree(m: &Model, change: &dyn Fn(&mut Model)) {
             (0..view.len()).filter_map(|i| view.get(i)).collect::<Vec<f64>>()
         });
         let size = b.iter().fold(1.0_f64, |s, x| s.max(x.abs()));
-        let apart = a.iter().zip(&b).fold(0.0_f64, |s, (x, y)| s.max((x - y).abs()));
-        assert!(a.len() == b.len() && apart < 1e-8 * size, "{name}: {apart:e} of {size:e}");
+        let difference = a.iter().zip(&b).fold(0.0_f64, |s, (x, y)| s.max((x - y).abs()));
+        assert!(a.len() == b.len() && difference < 1e-8 * size, "{name}: {difference:e} of {size:e}");
     }
 }
 

@@ -27,7 +27,7 @@ use crate::step::deciding;
 /// let mut data = Data::planned(&model, plan);
 /// step(&model, &mut data)?;
 /// assert_eq!(data.get("qpos")?.len(), 1);
-/// // What nobody asked for was not computed, and says so.
+/// // A field outside of the requested set is not computed, and reading it is an error.
 /// assert!(data.get("xpos").is_err());
 /// # Ok(())
 /// # }

@@ -6,9 +6,9 @@ use crate::mjcf;
 use std::path::Path;
 
 pub use crate::mjcf::{
-    Attr, Element, FileProblem, Files, Finding, Folder, Keyword, Kind, MAX_ALL_ATTRIBUTES, MAX_ATTRIBUTES,
-    MAX_DEPTH, MAX_DOFS, MAX_ELEMENTS, MAX_FILE, MAX_GEOMS, MAX_MASS, MAX_TEXT, MjcfFileError, NoFiles,
-    Patch, Refusal, SchemaRow, Severity, Status, rules, schema_root, schema_rows,
+    Attr, AttributeType, Element, FileProblem, Files, Finding, Folder, Keyword, MAX_ALL_ATTRIBUTES,
+    MAX_ATTRIBUTES, MAX_DEPTH, MAX_DOFS, MAX_ELEMENTS, MAX_FILE, MAX_GEOMS, MAX_MASS, MAX_TEXT,
+    MjcfFileError, NoFiles, Patch, Refusal, SchemaRow, Severity, Status, rules, schema_root, schema_rows,
 };
 
 /// The result of reading the text of a model.
@@ -23,7 +23,7 @@ pub struct CheckedModel {
 /// Compiles a model and returns its errors and its warnings. A warning reports what the author may not have intended. `path` is
 /// the path of the text itself in `files`, if it has one: files that the text names are searched for in that folder.
 pub fn check_xml(xml: &str, files: &dyn Files, path: Option<&str>) -> CheckedModel {
-    let mjcf::CheckedModel { model, findings } = mjcf::check_xml(xml, files, path);
+    let mjcf::ParsedModel { model, findings } = mjcf::check_xml(xml, files, path);
     CheckedModel { model: model.map(Model::new), findings }
 }
 
@@ -35,7 +35,7 @@ pub fn check_patched(
     path: Option<&str>,
     patches: &[Patch],
 ) -> (CheckedModel, Vec<Option<Refusal>>) {
-    let (mjcf::CheckedModel { model, findings }, refusals) = mjcf::check_patched(xml, files, path, patches);
+    let (mjcf::ParsedModel { model, findings }, refusals) = mjcf::check_patched(xml, files, path, patches);
     (CheckedModel { model: model.map(Model::new), findings }, refusals)
 }
 

@@ -25,10 +25,14 @@ fn numbers(m: &Model, d: &Fields, object: Object, name: &str) -> Vec<f64> {
 }
 
 /// The largest difference, relative to the largest magnitude (at least 1), with its index.
-fn difference(got: &[f64], want: &[f64]) -> (f64, usize) {
-    let scale = want.iter().fold(1.0_f64, |s, x| s.max(x.abs()));
-    let of = |(i, (a, b)): (usize, (&f64, &f64))| ((a - b).abs() / scale, i);
-    got.iter().zip(want).enumerate().map(of).fold((0.0, 0), |a, b| if b.0 > a.0 { b } else { a })
+fn difference(got: &[f64], expected: &[f64]) -> (f64, usize) {
+    let scale = expected.iter().fold(1.0_f64, |s, x| s.max(x.abs()));
+    let scaled_error = |(i, (a, b)): (usize, (&f64, &f64))| ((a - b).abs() / scale, i);
+    got.iter()
+        .zip(expected)
+        .enumerate()
+        .map(scaled_error)
+        .fold((0.0, 0), |a, b| if b.0 > a.0 { b } else { a })
 }
 
 /// The name and index of the sensor that a value belongs to.
@@ -63,7 +67,7 @@ fn check_recorded(xml: &str, recorded: &str, tolerance: f64) {
     let mut wrong = Vec::new();
     let (mut state, mut computed, mut stepped) = (-1, false, false);
     for line in recorded.lines() {
-        let (name, mut want) = parse(line);
+        let (name, mut expected) = parse(line);
         if name == "step" {
             crate::step::step(&m, &mut d, &mut s);
             stepped = true;
@@ -79,7 +83,7 @@ fn check_recorded(xml: &str, recorded: &str, tolerance: f64) {
         let input = id.info().kind != reflect::Kind::Derived && object == Object::Data && !stepped;
         if input {
             match reflect::view_data_mut(&mut d, id) {
-                ViewMut::F64(v) => v.copy_from_slice(&want),
+                ViewMut::F64(v) => v.copy_from_slice(&expected),
                 _ => panic!("{name} has no real numbers"),
             }
             continue;
@@ -90,22 +94,25 @@ fn check_recorded(xml: &str, recorded: &str, tolerance: f64) {
         }
         if OPTICS.contains(&field) {
             match reflect::view_model_mut(&mut m, id) {
-                ViewMut::F64(v) => v.copy_from_slice(&want),
-                ViewMut::I32(v) => want.iter().enumerate().for_each(|(i, &x)| v[i] = x as i32),
+                ViewMut::F64(v) => v.copy_from_slice(&expected),
+                ViewMut::I32(v) => expected.iter().enumerate().for_each(|(i, &x)| v[i] = x as i32),
                 _ => panic!("{name} has no numbers"),
             }
             crate::setup::setconst::set_const(&mut m, &mut d, &mut s);
             continue;
         }
         let got = numbers(&m, &d, object, field);
-        assert_eq!(got.len(), want.len(), "{name}: {got:?}");
+        assert_eq!(got.len(), expected.len(), "{name}: {got:?}");
         if name == "sensordata" {
-            with_principal_points(&m, &mut want);
+            with_principal_points(&m, &mut expected);
         }
-        let (error, at) = difference(&got, &want);
+        let (error, at) = difference(&got, &expected);
         if error > tolerance {
-            let of = if name == "sensordata" { sensor(&m, at) } else { String::new() };
-            wrong.push(format!("state {state} {name}[{at}] {of}: {} instead of {}", got[at], want[at]));
+            let sensor_name = if name == "sensordata" { sensor(&m, at) } else { String::new() };
+            wrong.push(format!(
+                "state {state} {name}[{at}] {sensor_name}: {} instead of {}",
+                got[at], expected[at]
+            ));
         }
     }
     assert_eq!(state, 7);
@@ -113,7 +120,7 @@ fn check_recorded(xml: &str, recorded: &str, tolerance: f64) {
 }
 
 /// Adds what MuJoCo ignores in projections: the image is shifted by the principal point of its camera, pixels.
-fn with_principal_points(m: &Model, want: &mut [f64]) {
+fn with_principal_points(m: &Model, expected: &mut [f64]) {
     for s in 0..m.nsensor {
         let at = m.sensor_adr[s] as usize;
         if sensor(m, at).starts_with("camprojection") {
@@ -122,7 +129,7 @@ fn with_principal_points(m: &Model, want: &mut [f64]) {
                 let size = m.cam_sensorsize[2 * camera + axis] as f32;
                 let length = m.cam_intrinsic[4 * camera + 2 + axis] as f32;
                 let pixels = m.cam_resolution[2 * camera + axis] as f32;
-                want[at + axis] -= if size == 0.0 { 0.0 } else { f64::from(length / size * pixels) };
+                expected[at + axis] -= if size == 0.0 { 0.0 } else { f64::from(length / size * pixels) };
             }
         }
     }
@@ -159,32 +166,32 @@ fn equality_constraints_act_where_they_hold() {
     let mut wrong = Vec::new();
     let mut rows = 0;
     for line in include_str!("golden/equality.txt").lines() {
-        let (name, want) = parse(line);
-        let int = || want.iter().map(|&x| x as i32).collect::<Vec<_>>();
+        let (name, expected) = parse(line);
+        let int = || expected.iter().map(|&x| x as i32).collect::<Vec<_>>();
         match name {
             "state" => crate::step::reset::reset_data(&m, &mut d, &mut s),
             "rows.qacc" => {
                 forward(&m, &mut d, &mut s);
-                d.qacc.copy_from_slice(&want);
+                d.qacc.copy_from_slice(&expected);
             }
-            "rows.efc_type" => (d.efc_type, d.nefc) = (int(), want.len()),
+            "rows.efc_type" => (d.efc_type, d.nefc) = (int(), expected.len()),
             "rows.efc_id" => d.efc_id = int(),
             "rows.efc_force" => {
-                d.efc_force = want;
+                d.efc_force = expected;
                 rows += d.nefc;
                 crate::sensor::body_force::rne_post_constraint(&m, &mut d);
                 crate::sensor::evaluate(&m, &mut d, &mut s.sensor, crate::sensor::SensorStage::Acceleration);
             }
             "sensordata" | "cacc" | "cfrc_int" | "cfrc_ext" => {
                 let got = numbers(&m, &d, Object::Data, name);
-                let (error, at) = difference(&got, &want);
+                let (error, at) = difference(&got, &expected);
                 if error > 1e-12 {
-                    wrong.push(format!("{name}[{at}]: {} instead of {}", got[at], want[at]));
+                    wrong.push(format!("{name}[{at}]: {} instead of {}", got[at], expected[at]));
                 }
             }
             _ if name.starts_with("model.") => {}
             _ => match reflect::view_data_mut(&mut d, reflect::field(Object::Data, name).unwrap()) {
-                ViewMut::F64(v) => v.copy_from_slice(&want),
+                ViewMut::F64(v) => v.copy_from_slice(&expected),
                 _ => panic!("{name} has no real numbers"),
             },
         }

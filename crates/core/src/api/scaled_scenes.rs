@@ -71,25 +71,25 @@ fn whole_scenes_scale() {
             let by = 2f64.powi(power);
             let (large, Workspace { fields: mut there, scratch: mut s }) = scaled(&m, &d, by);
             assert_eq!(there.contact.len(), unit.contact.len(), "2^{power}");
-            for (got, want) in there.contact.iter().zip(&unit.contact) {
-                assert_eq!(back(got, by), back(want, 1.0), "2^{power}");
+            for (got, expected) in there.contact.iter().zip(&unit.contact) {
+                assert_eq!(back(got, by), back(expected, 1.0), "2^{power}");
             }
             for k in 0..40 {
                 let angle = f64::from(k);
                 let (from, along) =
                     ([angle.sin(), angle.cos(), 1.5], [-angle.sin(), 0.3 - angle.cos(), -1.0]);
-                let want = ray(&m, &unit, from, along, &RayFilter::default());
+                let expected = ray(&m, &unit, from, along, &RayFilter::default());
                 let got = ray(&large, &there, scale(from, by), scale(along, 1e-12), &RayFilter::default());
-                hits += usize::from(want.is_some());
-                assert_eq!(got.map(|h| h.geom), want.map(|h| h.geom), "2^{power}, ray {k}");
-                if let (Some(got), Some(want)) = (got, want) {
-                    let apart = got.distance * 1e-12 / by / want.distance - 1.0;
-                    assert!(apart.abs() < 1e-12, "2^{power}, ray {k}: {apart}");
+                hits += usize::from(expected.is_some());
+                assert_eq!(got.map(|h| h.geom), expected.map(|h| h.geom), "2^{power}, ray {k}");
+                if let (Some(got), Some(expected)) = (got, expected) {
+                    let difference = got.distance * 1e-12 / by / expected.distance - 1.0;
+                    assert!(difference.abs() < 1e-12, "2^{power}, ray {k}: {difference}");
                 }
             }
             for a in 0..m.ngeom {
                 for b in 0..m.ngeom {
-                    let want = geom_distance(
+                    let expected = geom_distance(
                         &m,
                         &mut unit.clone(),
                         &mut unit_scratch.clone().sensor.narrow,
@@ -99,9 +99,9 @@ fn whole_scenes_scale() {
                     .unwrap();
                     let got =
                         geom_distance(&large, &mut there, &mut s.sensor.narrow, [a, b], 3.0 * by).unwrap();
-                    assert_eq!(got.dist / by, want.dist, "2^{power}: {a} {b}");
+                    assert_eq!(got.dist / by, expected.dist, "2^{power}: {a} {b}");
                     let points = got.fromto.map(|p| scale(p, 1.0 / by));
-                    assert_eq!(points, want.fromto, "2^{power}: {a} {b}");
+                    assert_eq!(points, expected.fromto, "2^{power}: {a} {b}");
                 }
             }
         }

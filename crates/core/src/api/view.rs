@@ -171,7 +171,7 @@ impl<'a> Joint<'a> {
 fn set(to: Option<&mut [f64]>, values: &[f64], what: &'static str) -> Result<(), Error> {
     let to = to.unwrap_or_default();
     if to.len() != values.len() {
-        return Err(Error::Length { what, wanted: to.len(), found: values.len() });
+        return Err(Error::Length { what, expected: to.len(), found: values.len() });
     }
     to.copy_from_slice(values);
     Ok(())

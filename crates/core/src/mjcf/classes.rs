@@ -11,11 +11,11 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::rc::Rc;
 
-use super::schema::{ALTERNATIVES, Kind};
+use super::schema::{ALTERNATIVES, AttributeType};
 use crate::mjcf::keyword_map::KeywordMap;
 use crate::mjcf::rules;
 use crate::mjcf::text::diagnostic::Diagnostics;
-use crate::mjcf::text::tree::{Attribute, Node, Tree};
+use crate::mjcf::text::tree::{Attribute, ElementNode, ElementTree};
 use crate::mjcf::text::values::Value;
 
 /// Limit for the number of classes. Each copies its parent.
@@ -32,22 +32,22 @@ pub(crate) struct Props {
 
 impl Props {
     /// The attributes of the element itself, for elements without defaults.
-    pub(crate) fn written_props(node: &Node) -> Props {
+    pub(crate) fn written_props(node: &ElementNode) -> Props {
         let mut props = Props::default();
         props.overlay(node);
         props
     }
 
     /// Overrides these attributes by those of an element. Names are not copied.
-    pub(crate) fn overlay(&mut self, node: &Node) {
+    pub(crate) fn overlay(&mut self, node: &ElementNode) {
         self.overlay_within(node, &CompletionBudget::default());
     }
 
     /// Like [`Props::overlay`], with a budget for lists that combine numbers of the element and of its class.
-    fn overlay_within(&mut self, node: &Node, budget: &CompletionBudget) {
+    fn overlay_within(&mut self, node: &ElementNode, budget: &CompletionBudget) {
         #[cfg(test)]
         self.elements.push(node.element);
-        let is_name = |a: &&Attribute| matches!(a.attr.kind, Kind::Name(_) | Kind::Class);
+        let is_name = |a: &&Attribute| matches!(a.attr.kind, AttributeType::Name(_) | AttributeType::Class);
         for a in node.attributes.iter().filter(|a| !is_name(a)) {
             if ALTERNATIVES.contains(&a.attr.name) {
                 self.values.remove(&ALTERNATIVES);
@@ -197,7 +197,7 @@ impl Classes {
     ///
     /// A further section at the top level continues the class `main`. Classes that are defined before keep what they copied from
     /// it, as in MuJoCo. An attached model has its own main class, under the renamed name of its section.
-    pub(crate) fn read(tree: &Tree, report: &mut Diagnostics) -> Classes {
+    pub(crate) fn read(tree: &ElementTree, report: &mut Diagnostics) -> Classes {
         let mut classes = Classes {
             list: vec![Class::default()],
             names: BTreeMap::new(),
@@ -256,7 +256,7 @@ impl Classes {
     }
 
     /// The class of an element: its `class`, else the nearest `childclass` of the bodies around it, else `main`.
-    pub(crate) fn class_of(&self, node: &Node, childclass: Option<usize>) -> usize {
+    pub(crate) fn class_of(&self, node: &ElementNode, childclass: Option<usize>) -> usize {
         let written_class = node.text("class").and_then(|name| self.find(name));
         written_class.or(childclass).unwrap_or(self.main)
     }
@@ -279,12 +279,12 @@ impl Classes {
     }
 
     /// The effective attributes of an element: its own, and those of its class where it has none.
-    pub(crate) fn props(&self, node: &Node, childclass: Option<usize>) -> Props {
+    pub(crate) fn props(&self, node: &ElementNode, childclass: Option<usize>) -> Props {
         self.props_of(node.element.name, node, childclass)
     }
 
     /// Like [`Classes::props`], for an element whose defaults have another name: all tendons share `tendon`.
-    pub(crate) fn props_of(&self, entry: &str, node: &Node, childclass: Option<usize>) -> Props {
+    pub(crate) fn props_of(&self, entry: &str, node: &ElementNode, childclass: Option<usize>) -> Props {
         let entry = self.list.get(self.class_of(node, childclass)).and_then(|c| c.entries.get(entry));
         let mut props = entry.map_or_else(Props::default, |p| Props::clone(p));
         props.overlay_within(node, &self.budget);

@@ -2,14 +2,14 @@
 
 use super::arrays::{flat, padded};
 use super::gather::listed;
-use super::layout::{Dof, Layout, Pattern, WholePattern};
+use super::layout::{Dof, SparsityPattern, TreeLayout, WholePattern};
 use super::spec::{
     ActuatorSpec, BodySpec, EqualitySpec, ExcludeSpec, GeomSpec, Inertia, JointSpec, KeySpec, PairSpec,
     SOLIMP, SOLREF, SensorSpec, SiteSpec, TendonSpec,
 };
 use crate::kinds::joint;
 use crate::math::{IDENTITY, MINVAL, quat_normalize, rows_mut};
-use crate::mjcf::actuator::fill_actuator::{self, Counts};
+use crate::mjcf::actuator::fill_actuator::{self, ActuatorCounts};
 use crate::mjcf::asset::fill_asset;
 use crate::mjcf::asset::read_asset::Assets;
 use crate::mjcf::constraint::fill_constraint;
@@ -46,13 +46,13 @@ pub(crate) struct Users {
 pub(crate) struct Parts<'a> {
     pub(crate) bodies: &'a [BodySpec],
     pub(crate) inertias: &'a [Inertia],
-    pub(crate) layout: &'a Layout,
+    pub(crate) layout: &'a TreeLayout,
     pub(crate) simple: &'a [i32],
-    pub(crate) pattern: Pattern,
+    pub(crate) pattern: SparsityPattern,
     pub(crate) whole: WholePattern,
     pub(crate) tendons: &'a [TendonSpec],
     pub(crate) actuators: &'a [ActuatorSpec],
-    pub(crate) counts: Counts,
+    pub(crate) counts: ActuatorCounts,
     pub(crate) equalities: &'a [EqualitySpec],
     pub(crate) pairs: &'a [PairSpec],
     pub(crate) excludes: &'a [ExcludeSpec],
@@ -89,9 +89,9 @@ pub(crate) fn fill_arrays(m: &mut Model, parts: Parts) {
     bodies(m, list, parts.inertias, layout, simple);
     joints(m, list, &members.joints);
     dofs(m, &members.joints, &layout.dofs, simple);
-    let Pattern { rownnz, rowadr, colind } = parts.pattern;
+    let SparsityPattern { rownnz, rowadr, colind } = parts.pattern;
     (m.M_rownnz, m.M_rowadr, m.M_colind) = (rownnz, rowadr, colind);
-    let Pattern { rownnz, rowadr, colind } = parts.whole.pattern;
+    let SparsityPattern { rownnz, rowadr, colind } = parts.whole.pattern;
     (m.D_rownnz, m.D_rowadr, m.D_colind, m.D_diag) = (rownnz, rowadr, colind, parts.whole.diag);
     fill_scene::geoms(m, &members.geoms, scene);
     bodies_from_geoms(m);
@@ -146,7 +146,7 @@ fn set_sizes(m: &mut Model, parts: &Parts, members: &Members) {
 /// The names of all objects except assets and custom data, whose names are set together with their fields.
 fn names(model: String, parts: &Parts, members: &Members) -> Names {
     let Parts { bodies: list, .. } = parts;
-    let names = |of: &mut dyn Iterator<Item = &String>| of.cloned().collect::<Vec<String>>();
+    let names = |list: &mut dyn Iterator<Item = &String>| list.cloned().collect::<Vec<String>>();
     Names {
         model,
         body: names(&mut list.iter().map(|b| &b.name)),
@@ -167,8 +167,8 @@ fn names(model: String, parts: &Parts, members: &Members) -> Names {
 }
 
 /// The members of all bodies in the order of their ids, each with its body.
-fn members<T>(list: &[BodySpec], of: impl Fn(&BodySpec) -> &Vec<T>) -> Vec<(usize, &T)> {
-    listed(list.iter().enumerate().flat_map(|(i, b)| of(b).iter().map(move |x| (i, x))))
+fn members<T>(list: &[BodySpec], list_of: impl Fn(&BodySpec) -> &Vec<T>) -> Vec<(usize, &T)> {
+    listed(list.iter().enumerate().flat_map(|(i, b)| list_of(b).iter().map(move |x| (i, x))))
 }
 
 /// The address and the count of the members of each body. The address is -1 if there are none.
@@ -183,7 +183,7 @@ fn addresses(list: &[BodySpec], count: impl Fn(&BodySpec) -> usize) -> (Vec<i32>
     list.iter().map(&mut address).unzip()
 }
 
-fn bodies(m: &mut Model, list: &[BodySpec], inertias: &[Inertia], layout: &Layout, simple: &[i32]) {
+fn bodies(m: &mut Model, list: &[BodySpec], inertias: &[Inertia], layout: &TreeLayout, simple: &[i32]) {
     flat(&mut m.body_parentid, list, |b| [b.parent as i32]);
     flat(&mut m.body_rootid, &layout.root, |&i| [i as i32]);
     flat(&mut m.body_weldid, &layout.weld, |&i| [i as i32]);
@@ -320,15 +320,15 @@ fn fill_keys(m: &mut Model, bodies: &[BodySpec], keys: &[KeySpec]) {
     flat(&mut mpos0, &mocap, |b| b.pos);
     flat(&mut mquat0, &mocap, |b| b.quat);
     flat(&mut m.key_time, keys, |k| [k.time]);
-    let of = |given: fn(&KeySpec) -> &Option<Vec<f64>>, rest: &[f64]| -> Vec<f64> {
+    let key_values = |given: fn(&KeySpec) -> &Option<Vec<f64>>, rest: &[f64]| -> Vec<f64> {
         listed(keys.iter().flat_map(|k| given(k).as_deref().unwrap_or(rest)).copied())
     };
-    m.key_qpos = of(|k| &k.qpos, &m.qpos0);
-    m.key_qvel = of(|k| &k.qvel, &vec![0.0; m.nv]);
-    m.key_act = of(|k| &k.act, &vec![0.0; m.na]);
-    m.key_ctrl = of(|k| &k.ctrl, &vec![0.0; m.nu]);
-    m.key_mpos = of(|k| &k.mpos, &mpos0);
-    m.key_mquat = of(|k| &k.mquat, &mquat0);
+    m.key_qpos = key_values(|k| &k.qpos, &m.qpos0);
+    m.key_qvel = key_values(|k| &k.qvel, &vec![0.0; m.nv]);
+    m.key_act = key_values(|k| &k.act, &vec![0.0; m.na]);
+    m.key_ctrl = key_values(|k| &k.ctrl, &vec![0.0; m.nu]);
+    m.key_mpos = key_values(|k| &k.mpos, &mpos0);
+    m.key_mquat = key_values(|k| &k.mquat, &mquat0);
 
     for q in rows_mut::<4>(&mut m.key_mquat) {
         // A zero quaternion is not changed here. It is normalized when the mocap body is placed.

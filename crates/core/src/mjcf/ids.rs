@@ -4,7 +4,7 @@ use super::names::{NameTable, WORLD};
 use super::spec::{BodySpec, SensorObjects};
 use crate::mjcf::rules;
 use crate::mjcf::text::diagnostic::Diagnostics;
-use crate::mjcf::text::tree::{Node, Tree};
+use crate::mjcf::text::tree::{ElementNode, ElementTree};
 use crate::model::Obj;
 use std::collections::BTreeMap;
 
@@ -27,7 +27,7 @@ pub(crate) struct Ids {
 
 impl Ids {
     /// Numbers joints, geoms and sites body by body, and tendons and actuators in the order of the text.
-    pub(crate) fn number(tree: &Tree, bodies: &[BodySpec]) -> Ids {
+    pub(crate) fn number(tree: &ElementTree, bodies: &[BodySpec]) -> Ids {
         let mut ids = Ids {
             by_node: vec![None; tree.nodes.len()],
             joints: Vec::new(),
@@ -144,7 +144,7 @@ pub(crate) struct References<'a> {
 
 impl References<'_> {
     /// The object that an attribute names. A name that does not exist is reported by the check of references.
-    pub(crate) fn optional(&self, kind: &str, node: &Node, attribute: &str) -> Option<i32> {
+    pub(crate) fn optional(&self, kind: &str, node: &ElementNode, attribute: &str) -> Option<i32> {
         self.ids.find(kind, node.text(attribute)?, self.names)
     }
 
@@ -152,7 +152,7 @@ impl References<'_> {
     pub(crate) fn required(
         &self,
         kind: &str,
-        node: &Node,
+        node: &ElementNode,
         attribute: &str,
         report: &mut Diagnostics,
     ) -> Option<i32> {

@@ -14,7 +14,7 @@ const MAX_MATRIX: usize = 20_000_000;
 
 /// The structure of the trees, by body and by degree of freedom.
 #[derive(Debug, Default)]
-pub(crate) struct Layout {
+pub(crate) struct TreeLayout {
     pub(crate) root: Vec<usize>,
     pub(crate) weld: Vec<usize>,
     /// Kinematic tree of the body, -1 if it cannot move.
@@ -39,8 +39,8 @@ pub(crate) struct Dof {
 }
 
 /// Assigns all ids and addresses. The parent of a body precedes it.
-pub(crate) fn number(bodies: &[BodySpec]) -> Layout {
-    let mut l = Layout::default();
+pub(crate) fn number(bodies: &[BodySpec]) -> TreeLayout {
+    let mut l = TreeLayout::default();
     // The last degree of freedom on the path from the root to each body, including those of the body.
     let mut last: Vec<Option<usize>> = Vec::with_capacity(bodies.len());
     let mut joints = 0;
@@ -78,7 +78,7 @@ pub(crate) fn number(bodies: &[BodySpec]) -> Layout {
 }
 
 /// Reports models beyond the limits, and invalid joints and mocap bodies.
-pub(crate) fn check_sizes(bodies: &[BodySpec], layout: &Layout, report: &mut Diagnostics) {
+pub(crate) fn check_sizes(bodies: &[BodySpec], layout: &TreeLayout, report: &mut Diagnostics) {
     within_limits(bodies, layout, report);
     for (i, body) in bodies.iter().enumerate().skip(1) {
         check_joints(body, report);
@@ -109,7 +109,7 @@ pub(crate) fn check_sizes(bodies: &[BodySpec], layout: &Layout, report: &mut Dia
 
 /// Checks the limits for geoms and degrees of freedom. Collision detection tests pairs of geoms, and every degree of freedom is
 /// coupled with all its ancestors, so that a very large model would take much memory and hours without a message.
-fn within_limits(bodies: &[BodySpec], layout: &Layout, report: &mut Diagnostics) {
+fn within_limits(bodies: &[BodySpec], layout: &TreeLayout, report: &mut Diagnostics) {
     let geoms: usize = bodies.iter().map(|b| b.geoms.len()).sum();
     let mut depth: Vec<usize> = Vec::with_capacity(layout.dofs.len());
     for dof in &layout.dofs {
@@ -219,7 +219,7 @@ pub(crate) fn find_simple_bodies(bodies: &[BodySpec], inertias: &[Inertia]) -> V
 
 /// The sparsity pattern of the lower triangle of the mass matrix, row by row.
 #[derive(Debug, Default)]
-pub(crate) struct Pattern {
+pub(crate) struct SparsityPattern {
     pub(crate) rownnz: Vec<i32>,
     pub(crate) rowadr: Vec<i32>,
     pub(crate) colind: Vec<i32>,
@@ -227,8 +227,12 @@ pub(crate) struct Pattern {
 
 /// Row i contains the degrees of freedom on the path from the root to i, ascending, i last; for a simple body, only i itself.
 /// `None`, with an error in the report, if the pattern is too large.
-pub(crate) fn pattern(layout: &Layout, simple: &[i32], report: &mut Diagnostics) -> Option<Pattern> {
-    let mut p = Pattern::default();
+pub(crate) fn pattern(
+    layout: &TreeLayout,
+    simple: &[i32],
+    report: &mut Diagnostics,
+) -> Option<SparsityPattern> {
+    let mut p = SparsityPattern::default();
     for (i, dof) in layout.dofs.iter().enumerate() {
         let start = p.colind.len();
         p.rowadr.push(start as i32);
@@ -255,13 +259,13 @@ pub(crate) fn pattern(layout: &Layout, simple: &[i32], report: &mut Diagnostics)
 /// descendants, ascending.
 #[derive(Debug, Default)]
 pub(crate) struct WholePattern {
-    pub(crate) pattern: Pattern,
+    pub(crate) pattern: SparsityPattern,
     /// Index of the diagonal in each row.
     pub(crate) diag: Vec<i32>,
 }
 
 /// The pattern for a model. `None`, with an error in the report, if it is too large.
-pub(crate) fn whole_pattern(layout: &Layout, report: &mut Diagnostics) -> Option<WholePattern> {
+pub(crate) fn whole_pattern(layout: &TreeLayout, report: &mut Diagnostics) -> Option<WholePattern> {
     let dofs = &layout.dofs;
     let up = |i: usize| std::iter::successors(dofs.get(i).and_then(|d| d.parent), |&j| dofs.get(j)?.parent);
     let mut w = WholePattern::default();

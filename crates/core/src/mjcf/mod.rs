@@ -46,7 +46,7 @@ use crate::model::Model;
 use text::diagnostic::Diagnostics;
 
 pub use labspec_finding::{Finding, Severity};
-pub use schema::{Attr, Element, Keyword, Kind, SchemaRow, Status, schema_root, schema_rows};
+pub use schema::{Attr, AttributeType, Element, Keyword, SchemaRow, Status, schema_root, schema_rows};
 pub use text::diagnostic::MjcfFileError;
 pub use text::files::{FileProblem, Files, Folder, MAX_FILE, NoFiles};
 pub use text::patch::{Patch, Refusal};
@@ -93,7 +93,7 @@ pub(crate) fn compile_with(xml: &str, files: &dyn Files, path: Option<&str>) -> 
 
 /// The result of reading the text of a model.
 #[derive(Clone, Debug)]
-pub(crate) struct CheckedModel {
+pub(crate) struct ParsedModel {
     /// The model; `None` when there are errors.
     pub model: Option<Model>,
     /// Errors and warnings, in the order of the texts.
@@ -101,7 +101,7 @@ pub(crate) struct CheckedModel {
 }
 
 /// Like [`compile_with`], but also returns warnings, which report what the author may not have intended.
-pub(crate) fn check_xml(xml: &str, files: &dyn Files, path: Option<&str>) -> CheckedModel {
+pub(crate) fn check_xml(xml: &str, files: &dyn Files, path: Option<&str>) -> ParsedModel {
     check_patched(xml, files, path, &[]).0
 }
 
@@ -112,13 +112,13 @@ pub(crate) fn check_patched(
     files: &dyn Files,
     path: Option<&str>,
     patches: &[Patch],
-) -> (CheckedModel, Vec<Option<Refusal>>) {
+) -> (ParsedModel, Vec<Option<Refusal>>) {
     let (mut report, mut refusals) = (Diagnostics::new(), Vec::new());
     let built = build_model(xml, files, path, (patches, &mut refusals), &mut report);
     if let Some((tree, model)) = &built {
         lints::check_model(tree, model, &mut report);
     }
-    (CheckedModel { model: built.map(|(_, model)| model), findings: report.finish() }, refusals)
+    (ParsedModel { model: built.map(|(_, model)| model), findings: report.finish() }, refusals)
 }
 
 /// The text of a model with its patches applied and its includes expanded, so that another program can read it. `None` if the
@@ -134,7 +134,7 @@ fn build_model(
     path: Option<&str>,
     patches: (&[Patch], &mut Vec<Option<Refusal>>),
     report: &mut Diagnostics,
-) -> Option<(text::tree::Tree, Model)> {
+) -> Option<(text::tree::ElementTree, Model)> {
     let (tree, model) = passes::build(xml, files, path, patches, report)?;
     unsimulated::report_unsimulated(&tree, &model, report);
     report.is_clean().then_some((tree, model))

@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 
 use super::classes::Classes;
-use super::schema::Kind;
+use super::schema::AttributeType;
 use crate::mjcf::keyword_map::KeywordMap;
 use crate::mjcf::rules;
 use crate::mjcf::text::diagnostic::{Diagnostics, nearest, shorten_name};
-use crate::mjcf::text::tree::{Attribute, Node, Tree};
+use crate::mjcf::text::tree::{Attribute, ElementNode, ElementTree};
 use crate::mjcf::text::values::Value;
 
 /// Named elements, by kind and name.
@@ -22,12 +22,14 @@ const WORLD_NODE: usize = 0;
 
 impl<'t> NameTable<'t> {
     /// Collects all names and reports duplicates.
-    pub(crate) fn read(tree: &'t Tree, report: &mut Diagnostics) -> NameTable<'t> {
+    pub(crate) fn read(tree: &'t ElementTree, report: &mut Diagnostics) -> NameTable<'t> {
         let mut table = NameTable::default();
         table.nodes.or_default("body").insert(WORLD, WORLD_NODE);
         for (i, node) in tree.nodes.iter().enumerate() {
             for a in &node.attributes {
-                let (Kind::Name(kind), Value::Text(name)) = (a.attr.kind, &a.value) else { continue };
+                let (AttributeType::Name(kind), Value::Text(name)) = (a.attr.kind, &a.value) else {
+                    continue;
+                };
                 if name.is_empty() {
                     continue;
                 }
@@ -89,7 +91,7 @@ impl<'t> NameTable<'t> {
 }
 
 /// Names meshes, height fields, textures and skins without a name after their files.
-pub(crate) fn after_files(tree: &mut Tree) {
+pub(crate) fn after_files(tree: &mut ElementTree) {
     for node in &mut tree.nodes {
         if !matches!(node.element.name, "mesh" | "hfield" | "texture" | "skin") || node.text("name").is_some()
         {
@@ -111,7 +113,12 @@ fn stem(path: &str) -> &str {
 }
 
 /// Checks that references and classes exist.
-pub(crate) fn check_references(tree: &Tree, names: &NameTable, classes: &Classes, report: &mut Diagnostics) {
+pub(crate) fn check_references(
+    tree: &ElementTree,
+    names: &NameTable,
+    classes: &Classes,
+    report: &mut Diagnostics,
+) {
     let mut defined: BTreeMap<&str, usize> = BTreeMap::new();
     let mut dangling = Vec::new();
     for node in &tree.nodes {
@@ -126,7 +133,7 @@ pub(crate) fn check_references(tree: &Tree, names: &NameTable, classes: &Classes
         for a in &node.attributes {
             let Value::Text(name) = &a.value else { continue };
             match a.attr.kind {
-                Kind::Ref(kind) if !name.is_empty() && names.find(kind, name).is_none() => {
+                AttributeType::Ref(kind) if !name.is_empty() && names.find(kind, name).is_none() => {
                     if entry {
                         dangling.push(DanglingReference {
                             entry: node.element.name,
@@ -138,7 +145,7 @@ pub(crate) fn check_references(tree: &Tree, names: &NameTable, classes: &Classes
                         names.unknown(kind, name, a.span.clone(), report);
                     }
                 }
-                Kind::Class if !is_default && classes.find(name).is_none() => {
+                AttributeType::Class if !is_default && classes.find(name).is_none() => {
                     let error = report.error(
                         rules::UNKNOWN_CLASS,
                         a.span.clone(),
@@ -157,7 +164,7 @@ pub(crate) fn check_references(tree: &Tree, names: &NameTable, classes: &Classes
 }
 
 /// Whether an element is inside a default class.
-fn is_entry(tree: &Tree, node: &Node) -> bool {
+fn is_entry(tree: &ElementTree, node: &ElementNode) -> bool {
     node.parent.and_then(|p| tree.nodes.get(p)).is_some_and(|p| p.element.name == "default")
 }
 
@@ -173,7 +180,7 @@ struct DanglingReference<'t> {
 /// Reports a default that refers to a missing object, at each element to which it applies. If there is no such element, it is not
 /// an error. This is the behaviour of MuJoCo, which resolves the name for each element.
 fn check_dangling(
-    tree: &Tree,
+    tree: &ElementTree,
     names: &NameTable,
     classes: &Classes,
     mut dangling: Vec<DanglingReference>,
@@ -218,8 +225,8 @@ fn check_dangling(
 
 /// Checks that a nested class has a unique name. The outermost class is named `main`.
 fn check_class<'t>(
-    tree: &'t Tree,
-    node: &'t Node,
+    tree: &'t ElementTree,
+    node: &'t ElementNode,
     defined: &mut BTreeMap<&'t str, usize>,
     report: &mut Diagnostics,
 ) {

@@ -14,7 +14,7 @@ use super::scene::fill_scene::SceneFields;
 use super::scene::{read_key, read_scene};
 use super::sensor::read_sensor;
 use super::spec::{
-    ActuatorSpec, BodySpec, EqualitySpec, ExcludeSpec, Inertia, List, PairSpec, SensorSpec, TendonSpec,
+    ActuatorSpec, BodySpec, EqualitySpec, ExcludeSpec, Inertia, NumberList, PairSpec, SensorSpec, TendonSpec,
 };
 use super::tendon::{fill_tendon, read_tendon};
 use super::text::diagnostic::Diagnostics;
@@ -27,8 +27,8 @@ use crate::mjcf::rules;
 use crate::model::Model;
 
 /// The checked text of a model, from which the specifications are read.
-struct Source<'a> {
-    tree: &'a tree::Tree,
+struct SpecInputs<'a> {
+    tree: &'a tree::ElementTree,
     classes: &'a Classes,
     names: &'a NameTable<'a>,
     /// The models that form the whole. The main model is the first.
@@ -39,7 +39,7 @@ struct Source<'a> {
 struct Specs {
     bodies: Vec<BodySpec>,
     inertias: Vec<Inertia>,
-    layout: layout::Layout,
+    layout: layout::TreeLayout,
     tendons: Vec<TendonSpec>,
     actuators: Vec<ActuatorSpec>,
     equalities: Vec<EqualitySpec>,
@@ -57,7 +57,7 @@ pub(super) fn build(
     path: Option<&str>,
     (patches, refusals): (&[Patch], &mut Vec<Option<Refusal>>),
     report: &mut Diagnostics,
-) -> Option<(tree::Tree, Model)> {
+) -> Option<(tree::ElementTree, Model)> {
     let mut loader = load::Loader::new(files, patches);
     let written = loader.model(xml.into(), path, report);
     *refusals = loader.refusals();
@@ -72,7 +72,7 @@ pub(super) fn build(
     let statistic = settings::StatisticOverride::read(&tree, report);
     let min_keys = settings::min_keys(&tree);
     let mut assets = Assets::read(&tree, &classes, &parts, files, report);
-    let source = Source { tree: &tree, classes: &classes, names: &names, parts: &parts };
+    let source = SpecInputs { tree: &tree, classes: &classes, names: &names, parts: &parts };
     let specs = read_specs(&source, &mut assets, report)?;
     if !report.is_clean() {
         return None;
@@ -89,8 +89,8 @@ pub(super) fn build(
 }
 
 /// Reads every object, each kind after the kinds that it refers to. `None` if there is no model.
-fn read_specs(source: &Source, assets: &mut Assets, report: &mut Diagnostics) -> Option<Specs> {
-    let &Source { tree, classes, names, parts } = source;
+fn read_specs(source: &SpecInputs, assets: &mut Assets, report: &mut Diagnostics) -> Option<Specs> {
+    let &SpecInputs { tree, classes, names, parts } = source;
     let compiler = &parts.first()?.compiler;
     let mut bodies =
         read_body::bodies(&mut Context { tree, classes, parts, assets, compiler, report: &mut *report });
@@ -168,7 +168,7 @@ fn read_scene_fields(
 
 /// The number of user values for each kind of object.
 fn user_widths(
-    tree: &tree::Tree,
+    tree: &tree::ElementTree,
     bodies: &[BodySpec],
     tendons: &[TendonSpec],
     actuators: &[ActuatorSpec],
@@ -176,8 +176,9 @@ fn user_widths(
     report: &mut Diagnostics,
 ) -> fill::Users {
     let actuator_users: Vec<_> = listed(actuators.iter().map(fill_actuator::user));
-    let mut width =
-        |name: &str, lists: &mut dyn Iterator<Item = &List>| settings::user_width(tree, name, lists, report);
+    let mut width = |name: &str, lists: &mut dyn Iterator<Item = &NumberList>| {
+        settings::user_width(tree, name, lists, report)
+    };
     let body = width("nuser_body", &mut bodies.iter().map(|b| &b.user));
     let joint = width("nuser_jnt", &mut bodies.iter().flat_map(|b| &b.joints).map(|j| &j.user));
     let geom = width("nuser_geom", &mut bodies.iter().flat_map(|b| &b.geoms).map(|g| &g.user));
@@ -193,7 +194,7 @@ fn user_widths(
 /// Fills the arrays of a model. `None`, with an error in the report, if it is invalid.
 fn fill_model(
     m: &mut Model,
-    tree: &tree::Tree,
+    tree: &tree::ElementTree,
     specs: &Specs,
     assets: &Assets,
     min_keys: usize,
@@ -243,7 +244,12 @@ fn fill_model(
 
 /// Computes the fields that depend on the arrays: sleep policies, the total mass, constants, springs and length ranges. `None` if
 /// there is no model.
-fn compute_constants(m: &mut Model, source: &Source, specs: &Specs, report: &mut Diagnostics) -> Option<()> {
+fn compute_constants(
+    m: &mut Model,
+    source: &SpecInputs,
+    specs: &Specs,
+    report: &mut Diagnostics,
+) -> Option<()> {
     sleep_policy::policies(m, &specs.bodies);
     reshape::total_mass(m, &source.parts.first()?.compiler);
     crate::setup::setconst::set_const0(m);

@@ -1,18 +1,18 @@
 //! `compiler`, `option`, `statistic` and `size`: settings of the whole model.
 
 use super::classes::Props;
-use super::spec::List;
+use super::spec::NumberList;
 use crate::kinds::{angle, choice, disable, enable};
 use crate::mjcf::gather::listed;
 use crate::mjcf::rules;
 use crate::mjcf::text::diagnostic::{Diagnostics, shorten_name};
-use crate::mjcf::text::tree::Tree;
+use crate::mjcf::text::tree::ElementTree;
 use crate::mjcf::text::values::Value;
 use crate::model::{Options, Statistic};
 use crate::setup::lengthrange::{Mode, RangeSearch};
 
 /// The attributes of all sections of one name. Later sections override earlier ones.
-fn section(tree: &Tree, name: &str) -> Props {
+fn section(tree: &ElementTree, name: &str) -> Props {
     let mut props = Props::default();
     for (_, node) in tree.sections(name) {
         props.overlay(node);
@@ -48,7 +48,7 @@ pub(crate) enum InertiaFromGeom {
 
 /// The settings of `compiler`.
 #[derive(Clone, Debug)]
-pub(crate) struct Compiler {
+pub(crate) struct CompilerSettings {
     pub(crate) degrees: bool,
     pub(crate) autolimits: bool,
     /// Axes of `euler`: index of the axis, and whether it is fixed (upper case) or rotates with the frame.
@@ -73,12 +73,12 @@ pub(crate) struct Compiler {
     pub(crate) strippath: bool,
 }
 
-impl Compiler {
+impl CompilerSettings {
     /// Reads the section.
-    pub(crate) fn read(tree: &Tree, report: &mut Diagnostics) -> Compiler {
+    pub(crate) fn read(tree: &ElementTree, report: &mut Diagnostics) -> CompilerSettings {
         let p = section(tree, "compiler");
         let groups = p.ints("inertiagrouprange").unwrap_or(&[0, 5]);
-        Compiler {
+        CompilerSettings {
             degrees: p.keyword("angle") != Some(angle::RADIAN),
             autolimits: p.flag("autolimits", true),
             eulerseq: eulerseq(&p, report),
@@ -136,7 +136,7 @@ fn eulerseq(p: &Props, report: &mut Diagnostics) -> [(usize, bool); 3] {
 }
 
 /// Reads `option`. Missing values are MuJoCo's defaults.
-pub(crate) fn options(tree: &Tree, report: &mut Diagnostics) -> Options {
+pub(crate) fn options(tree: &ElementTree, report: &mut Diagnostics) -> Options {
     let p = section(tree, "option");
     let d = Options::default();
     let mut positive = |name: &str, default: f64| {
@@ -222,7 +222,7 @@ fn disabled_groups(p: &Props, report: &mut Diagnostics) -> i32 {
 }
 
 /// The parameters of the search for length ranges, `compiler/lengthrange`.
-pub(crate) fn length_range(tree: &Tree) -> RangeSearch {
+pub(crate) fn length_range(tree: &ElementTree) -> RangeSearch {
     let mut p = Props::default();
     for (i, _) in tree.sections("compiler") {
         for (_, node) in tree.children(i) {
@@ -284,7 +284,7 @@ const ENABLE: [(&str, i32); 7] = [
 ];
 
 /// The flags of `option/flag` as bits: disabled, enabled.
-fn flags(tree: &Tree) -> (i32, i32) {
+fn flags(tree: &ElementTree) -> (i32, i32) {
     let mut p = Props::default();
     for (i, _) in tree.sections("option") {
         for (_, flag) in tree.children(i) {
@@ -309,7 +309,7 @@ pub(crate) struct StatisticOverride {
 
 impl StatisticOverride {
     /// Reads the section.
-    pub(crate) fn read(tree: &Tree, report: &mut Diagnostics) -> StatisticOverride {
+    pub(crate) fn read(tree: &ElementTree, report: &mut Diagnostics) -> StatisticOverride {
         let p = section(tree, "statistic");
         let mut positive =
             |name: &str| checked(&p, name, "statistic", |x| x > 0.0, "larger than zero", report);
@@ -334,7 +334,7 @@ impl StatisticOverride {
 }
 
 /// The smallest number of keyframes, `size nkey`.
-pub(crate) fn min_keys(tree: &Tree) -> usize {
+pub(crate) fn min_keys(tree: &ElementTree) -> usize {
     let p = section(tree, "size");
     // As in MuJoCo, a negative number has the effect of zero.
     usize::try_from(p.int("nkey").unwrap_or(0)).unwrap_or(0)
@@ -343,9 +343,9 @@ pub(crate) fn min_keys(tree: &Tree) -> usize {
 /// The number of user values of each object of a kind: the value of `size`, or, if that is absent or -1, the length of the
 /// longest list. `lists` contains one list per object.
 pub(crate) fn user_width(
-    tree: &Tree,
+    tree: &ElementTree,
     size: &str,
-    lists: &mut dyn Iterator<Item = &List>,
+    lists: &mut dyn Iterator<Item = &NumberList>,
     report: &mut Diagnostics,
 ) -> usize {
     let p = section(tree, "size");
@@ -382,7 +382,7 @@ pub(crate) fn user_width(
 
 /// Checks the attributes of `size` for memory. They have no effect here, but must be valid in MuJoCo: a number of bytes with K,
 /// M, G, T, P or E; other numbers at least -1.
-pub(crate) fn memory(tree: &Tree, report: &mut Diagnostics) {
+pub(crate) fn memory(tree: &ElementTree, report: &mut Diagnostics) {
     let p = section(tree, "size");
     if p.has("memory") {
         let text = p.text("memory").unwrap_or("").trim();
@@ -403,7 +403,7 @@ pub(crate) fn memory(tree: &Tree, report: &mut Diagnostics) {
 }
 
 /// The number of user values of the model, `size nuserdata`.
-pub(crate) fn userdata(tree: &Tree, report: &mut Diagnostics) -> usize {
+pub(crate) fn userdata(tree: &ElementTree, report: &mut Diagnostics) -> usize {
     let p = section(tree, "size");
     let n = p.int("nuserdata").unwrap_or(0);
     let span = p.span("nuserdata").unwrap_or(0..0);
@@ -422,7 +422,7 @@ pub(crate) fn userdata(tree: &Tree, report: &mut Diagnostics) -> usize {
 }
 
 /// The model's name.
-pub(crate) fn model_name(tree: &Tree) -> String {
+pub(crate) fn model_name(tree: &ElementTree) -> String {
     let root = tree.nodes.first().and_then(|n| n.attribute("model"));
     match root.map(|a| &a.value) {
         Some(Value::Text(name)) => name.clone(),

@@ -30,7 +30,7 @@ pub(crate) struct BodySpec {
     pub(crate) gravcomp: f64,
     /// Sleep policy of the tree: 0 auto, 1 never, 2 allowed, 3 asleep at the start.
     pub(crate) sleep: i32,
-    pub(crate) user: List,
+    pub(crate) user: NumberList,
     pub(crate) inertial: Option<Inertia>,
     /// The span of the inertia.
     pub(crate) inertial_span: Option<Range<usize>>,
@@ -83,7 +83,7 @@ pub(crate) struct JointSpec {
     /// Whether gravity compensation counts as an actuator force.
     pub(crate) actgravcomp: bool,
     pub(crate) group: i32,
-    pub(crate) user: List,
+    pub(crate) user: NumberList,
     pub(crate) armature: f64,
     /// Coordinate in the configuration of the text.
     pub(crate) reference: f64,
@@ -119,7 +119,7 @@ pub(crate) struct GeomSpec {
     pub(crate) material: Option<String>,
     pub(crate) surfacevel: [f64; 6],
     pub(crate) adhesion: f64,
-    pub(crate) user: List,
+    pub(crate) user: NumberList,
     pub(crate) only_static: bool,
     pub(crate) contype: i32,
     pub(crate) conaffinity: i32,
@@ -150,7 +150,7 @@ pub(crate) struct SiteSpec {
     pub(crate) material: Option<String>,
     pub(crate) group: i32,
     pub(crate) rgba: [f64; 4],
-    pub(crate) user: List,
+    pub(crate) user: NumberList,
 }
 
 /// A camera.
@@ -169,7 +169,7 @@ pub(crate) struct CameraSpec {
     pub(crate) output: i32,
     pub(crate) sensorsize: [f64; 2],
     pub(crate) intrinsic: [f64; 4],
-    pub(crate) user: List,
+    pub(crate) user: NumberList,
 }
 
 /// A light.
@@ -237,7 +237,7 @@ pub(crate) struct SensorSpec {
     pub(crate) cutoff: f64,
     pub(crate) noise: f64,
     pub(crate) timing: SensorTiming,
-    pub(crate) user: List,
+    pub(crate) user: NumberList,
 }
 
 /// The objects that a sensor is attached to: kinds (mjtObj, 0 for none) and ids (-1 for none).
@@ -289,15 +289,15 @@ impl SensorSpec {
 
 /// A list of numbers of any length, with its span.
 #[derive(Debug, Default)]
-pub(crate) struct List {
+pub(crate) struct NumberList {
     pub(crate) numbers: Rc<Vec<f64>>,
     pub(crate) span: Range<usize>,
 }
 
-impl List {
+impl NumberList {
     /// The numbers of an attribute; empty if it is absent.
-    pub(crate) fn read(p: &Props, name: &str) -> List {
-        List { numbers: p.shared(name), span: p.span(name).unwrap_or(0..0) }
+    pub(crate) fn read(p: &Props, name: &str) -> NumberList {
+        NumberList { numbers: p.shared(name), span: p.span(name).unwrap_or(0..0) }
     }
 }
 
@@ -327,7 +327,7 @@ pub(crate) struct TendonSpec {
     pub(crate) solimp_friction: [f64; 5],
     pub(crate) width: f64,
     pub(crate) rgba: [f64; 4],
-    pub(crate) user: List,
+    pub(crate) user: NumberList,
 }
 
 /// An object on a tendon's path.

@@ -3,20 +3,20 @@
 use crate::kinds::{disable, enable, eqtype, integrator};
 use crate::mjcf::rules;
 use crate::mjcf::text::diagnostic::Diagnostics;
-use crate::mjcf::text::tree::Tree;
+use crate::mjcf::text::tree::ElementTree;
 use crate::model::asleep::policy;
 use crate::model::{Model, Obj};
 use crate::step::workspace::Workspace;
 
 /// Reports requested features that are not supported.
-pub(crate) fn report_unsimulated(tree: &Tree, m: &Model, report: &mut Diagnostics) {
+pub(crate) fn report_unsimulated(tree: &ElementTree, m: &Model, report: &mut Diagnostics) {
     if m.opt.enabled(enable::SLEEP) {
         asleep(tree, m, report);
     }
 }
 
 /// Reports features that are not supported together with sleep.
-fn asleep(tree: &Tree, m: &Model, report: &mut Diagnostics) {
+fn asleep(tree: &ElementTree, m: &Model, report: &mut Diagnostics) {
     let flag = || tree.nodes.iter().filter(|n| n.element.name == "flag").find_map(|n| n.attribute("sleep"));
     let span = || flag().map_or(0..0, |a| a.span.clone());
     let acts = |e: usize| m.eq_type[e] == eqtype::TENDON && m.eq_active0[e];

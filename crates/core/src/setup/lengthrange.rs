@@ -11,7 +11,7 @@ use crate::forces::transmission::row;
 use crate::kinds::{biastype, disable, gaintype, joint, trntype};
 use crate::math::*;
 use crate::model::{Fields, Model};
-use crate::step::workspace::Scratch;
+use crate::step::workspace::StepScratch;
 use crate::step::{self, reset};
 
 /// The actuators whose range is computed.
@@ -113,7 +113,7 @@ impl RangeSearch {
 pub(crate) fn length_range(
     m: &mut Model,
     d: &mut Fields,
-    s: &mut Scratch,
+    s: &mut StepScratch,
     i: usize,
     search: &RangeSearch,
 ) -> Result<(), RangeError> {
@@ -149,7 +149,7 @@ pub(crate) fn length_range(
 fn simulate_pull(
     m: &Model,
     d: &mut Fields,
-    s: &mut Scratch,
+    s: &mut StepScratch,
     o: usize,
     sign: f64,
     search: &RangeSearch,
@@ -239,13 +239,13 @@ mod tests {
             ("mode='all'", "", "<motor joint='a' lengthrange='-.1 .1'/>", &[0.1]),
             ("mode='all' uselimit='true'", "", two, &[1.0471975511965976, 3.143302468649905]),
         ];
-        for (lengthrange, option, actuators, want) in cases {
+        for (lengthrange, option, actuators, expected) in cases {
             let got = arm(lengthrange, option, limit, actuators).unwrap();
-            let want: Vec<f64> = want.iter().flat_map(|x| [-x, *x]).collect();
-            let apart = got.iter().zip(&want).fold(0.0f64, |s, (a, b)| s.max((a - b).abs()));
+            let expected: Vec<f64> = expected.iter().flat_map(|x| [-x, *x]).collect();
+            let difference = got.iter().zip(&expected).fold(0.0f64, |s, (a, b)| s.max((a - b).abs()));
             assert!(
-                got.len() == want.len() && apart < 2e-12,
-                "{lengthrange} {option}: {got:?}, not {want:?}"
+                got.len() == expected.len() && difference < 2e-12,
+                "{lengthrange} {option}: {got:?}, not {expected:?}"
             );
         }
     }
@@ -270,9 +270,9 @@ mod tests {
             ("mode='all' accel='1e300'", limit, motor, "no length range"),
             ("mode='all' timeconst='-1' interval='-5'", limit, motor, "no length range"),
         ];
-        for (lengthrange, joint, actuators, want) in cases {
+        for (lengthrange, joint, actuators, expected) in cases {
             let message = arm(lengthrange, "", joint, actuators).unwrap_err();
-            assert!(message.contains(want), "{lengthrange}: {message}");
+            assert!(message.contains(expected), "{lengthrange}: {message}");
         }
     }
 }

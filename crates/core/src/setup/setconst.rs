@@ -9,14 +9,14 @@ use crate::math::*;
 use crate::model::plan::PlanTable;
 use crate::model::{Fields, Model};
 use crate::step::reset;
-use crate::step::workspace::{Scratch, Workspace};
+use crate::step::workspace::{StepScratch, Workspace};
 
 /// Recomputes the constants that depend on masses, inertias and poses (`mj_setConst`).
 ///
 /// Uses `d` as workspace, with a visible effect: on return, `qpos` is the configuration `qpos_spring` (normally `qpos0`), the
 /// position fields are those of that configuration, and `qvel`, `time`, `act` and `ctrl` are unchanged. A call during a
 /// simulation therefore moves bodies back to their initial positions and keeps their velocities.
-pub(crate) fn set_const(m: &mut Model, d: &mut Fields, s: &mut Scratch) {
+pub(crate) fn set_const(m: &mut Model, d: &mut Fields, s: &mut StepScratch) {
     let plan = std::mem::replace(&mut d.plan, PlanTable::full());
     let solves = (m.nbody + m.njnt + m.ntendon) * (6 * m.nC / m.ntree.max(1) + 100);
     let pass = d.meter.half;
@@ -58,7 +58,7 @@ pub(crate) fn set_const0(m: &mut Model) {
     set_const(m, &mut d, &mut s);
 }
 
-fn positions(m: &Model, d: &mut Fields, s: &mut Scratch) {
+fn positions(m: &Model, d: &mut Fields, s: &mut StepScratch) {
     tree_algorithms::load(m, &mut s.dynamics);
     dynamics::kinematics(m, d, &mut s.dynamics);
     com::com_pos(m, d);

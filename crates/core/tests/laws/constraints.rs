@@ -145,8 +145,8 @@ proptest! {
             (*m.edit().opt.solver, *m.edit().opt.iterations) = (which, iterations);
             let mut d = scene.data(&m);
             core::forward(&m, &mut d).unwrap();
-            let apart = newton.iter().zip(&d.qacc).fold(0.0, |s: f64, (a, b)| s.max((a - b).abs()));
-            prop_assert!(apart < tolerance * largest(&newton), "solver {which}: {apart} of {}", largest(&newton));
+            let difference = newton.iter().zip(&d.qacc).fold(0.0, |s: f64, (a, b)| s.max((a - b).abs()));
+            prop_assert!(difference < tolerance * largest(&newton), "solver {which}: {difference} of {}", largest(&newton));
         }
     }
 

@@ -182,8 +182,8 @@ proptest! {
         let scale = largest(&a.qacc);
         for (place, &i) in second.iter().enumerate() {
             for k in 0..6 {
-                let apart = (a.qacc[6 * i + k] - b.qacc[6 * place + k]).abs();
-                prop_assert!(apart < 1e-7 * scale, "body {i}, {k}: {apart} of {scale}");
+                let difference = (a.qacc[6 * i + k] - b.qacc[6 * place + k]).abs();
+                prop_assert!(difference < 1e-7 * scale, "body {i}, {k}: {difference} of {scale}");
             }
         }
     }

@@ -136,9 +136,9 @@ fn free_rotation_keeps_its_energy_and_momentum() {
             core::step(&m, &mut d).unwrap();
             let mut seen = d.clone();
             core::forward(&m, &mut seen).unwrap();
-            let now = invariants(&seen);
-            worst[0] = worst[0].max((before[0] - now[0]).abs() / before[0]);
-            worst[1] = (1..4).map(|k| (before[k] - now[k]).abs() / before[2]).fold(worst[1], f64::max);
+            let current = invariants(&seen);
+            worst[0] = worst[0].max((before[0] - current[0]).abs() / before[0]);
+            worst[1] = (1..4).map(|k| (before[k] - current[k]).abs() / before[2]).fold(worst[1], f64::max);
         }
         worst
     };

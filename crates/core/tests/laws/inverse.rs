@@ -48,8 +48,8 @@ proptest! {
         let sum: Vec<f64> = a.iter().zip(&b).map(|(a, b)| a + s * b).collect();
         let (bias, of_a, of_b, of_sum) = (rne(None), rne(Some(&a)), rne(Some(&b)), rne(Some(&sum)));
         let scale = of_a.amax().max(of_b.amax()).max(bias.amax()).max(1.0);
-        let apart = (&of_sum - &bias) - (&of_a - &bias) - s * (&of_b - &bias);
-        prop_assert!(apart.amax() <= 20.0 * ROUNDING * scale, "{apart}");
+        let difference = (&of_sum - &bias) - (&of_a - &bias) - s * (&of_b - &bias);
+        prop_assert!(difference.amax() <= 20.0 * ROUNDING * scale, "{difference}");
         let m_a = mass_matrix(&m, &d) * DVector::from_column_slice(&a);
         prop_assert!((&of_a - &bias - &m_a).amax() <= 20.0 * ROUNDING * scale.max(m_a.amax()), "{of_a}{bias}{m_a}");
     }

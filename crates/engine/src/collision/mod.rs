@@ -27,16 +27,16 @@ use crate::model::{Fields, Model, Warning, asleep};
 
 /// Scratch memory of the collision stage.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Scratch {
+pub struct CollisionScratch {
     /// Pairs of geoms to test.
-    pub(crate) pairs: Pairs,
+    pub(crate) pairs: CandidatePairs,
     /// Buffers for the contacts of one pair.
     narrow: Narrow,
 }
 
 /// The pairs that a plan tests, with their contact parameters if these cannot change.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Pairs {
+pub(crate) struct CandidatePairs {
     pairs: Vec<Pair>,
     params: Vec<Params>,
     /// Bounding spheres of the pairs with fixed parameters, except for pairs of spheres and pairs with an unbounded geom.
@@ -49,13 +49,13 @@ pub(crate) struct Pairs {
 
 /// Selects the pairs to test. If contact bits and flags may be written later, these are all pairs that can ever be in
 /// contact; otherwise the pairs that the current bits and flags admit.
-pub(crate) fn pairs(m: &Model, change: Changes) -> Pairs {
+pub(crate) fn pairs(m: &Model, change: Changes) -> CandidatePairs {
     let pairs = candidate_pairs(m, change);
     if pairs.len() > MOST_LISTED {
         let sweep = Some(Box::new(Sweep::new(m, change.bits)));
-        return Pairs { sweep, ..Pairs::default() };
+        return CandidatePairs { sweep, ..CandidatePairs::default() };
     }
-    let mut list = Pairs { pairs, filter: change.bits, ..Pairs::default() };
+    let mut list = CandidatePairs { pairs, filter: change.bits, ..CandidatePairs::default() };
     if !change.params {
         list.params = list.pairs.iter().map(|p| params::params(m, p)).collect();
         let limit = |(pair, params): (&Pair, &Params)| {
@@ -76,9 +76,9 @@ pub(crate) const MOST_CONTACTS: usize = 1 << 16;
 
 /// `contact`, `ncon`: tests the pairs of the plan in order.
 #[inline(never)]
-pub(crate) fn collide(m: &Model, d: &mut Fields, w: &mut Scratch) {
+pub(crate) fn collide(m: &Model, d: &mut Fields, w: &mut CollisionScratch) {
     d.contact.clear();
-    let Scratch { pairs: list, narrow: work } = w;
+    let CollisionScratch { pairs: list, narrow: work } = w;
     if let Some(sweep) = &mut list.sweep {
         let cost = sweep.run(m, d);
         d.meter.add(cost);
@@ -137,7 +137,7 @@ pub(crate) fn none(d: &mut Fields) {
     d.ncon = 0;
 }
 
-impl Pairs {
+impl CandidatePairs {
     /// Whether contact filters or sleep exclude a pair of the list.
     #[cfg_attr(not(feature = "small"), inline(always))]
     fn excludes(&self, m: &Model, d: &Fields, pair: &Pair) -> bool {
@@ -164,7 +164,7 @@ fn narrow(m: &Model, d: &mut Fields, work: &mut Narrow, pair: &Pair, params: &Pa
         (geom::SPHERE, geom::SPHERE) if bounded(g1) && bounded(g2) => {
             primitive::sphere_sphere(m, d, g1, g2, params.reach)
         }
-        _ if sweep::far_apart(m, d, g1, g2, params.reach) || d.meter.over() => None,
+        _ if sweep::out_of_reach(m, d, g1, g2, params.reach) || d.meter.over() => None,
         _ => return general(m, d, work, pair, params),
     };
     if let Some(t) = touch {

@@ -3,7 +3,7 @@
 use super::candidates::{Changes, candidate_pairs};
 use super::extent::Extents;
 use super::filter::{Pair, dynamic_pair, excluded, explicit_pairs, masks_admit, parent_and_child};
-use super::{Scratch, params, sweep};
+use super::{CollisionScratch, params, sweep};
 use crate::geometry::pair;
 use crate::model::{Fields, Model};
 use labspec_finding::order;
@@ -77,8 +77,8 @@ pub fn pair_statistics(m: &Model, change: Changes) -> Vec<(PairFilterReason, usi
 /// Whether two geoms are out of reach of each other, also with the margins of their explicit pairs.
 fn is_out_of_reach(m: &Model, extents: &Extents, a: usize, b: usize) -> bool {
     let both = ordered(a as i32, b as i32);
-    let of = |p: &Pair| ordered(p.geom1 as i32, p.geom2 as i32) == both;
-    let mut pairs = explicit_pairs(m).filter(of).chain(dynamic_pair(m, a, b, true));
+    let has_both = |p: &Pair| ordered(p.geom1 as i32, p.geom2 as i32) == both;
+    let mut pairs = explicit_pairs(m).filter(has_both).chain(dynamic_pair(m, a, b, true));
     pairs.all(|p| extents.never_within(m, &p, params::params(m, &p).reach))
 }
 
@@ -122,13 +122,13 @@ pub fn pair_methods(m: &Model, change: Changes) -> Vec<([i32; 2], usize, bool)> 
 
 /// The number of planned pairs whose bounding spheres are currently within reach of each other. Each of the other
 /// pairs costs one comparison.
-pub fn in_reach(m: &Model, d: &Fields, w: &Scratch) -> usize {
+pub fn in_reach(m: &Model, d: &Fields, w: &CollisionScratch) -> usize {
     if let Some(sweep) = &w.pairs.sweep {
         return sweep.near.len();
     }
     let near = |pair: &&Pair| {
         let [g1, g2] = [pair.geom1 as usize, pair.geom2 as usize];
-        !sweep::far_apart(m, d, g1, g2, params::params(m, pair).reach)
+        !sweep::out_of_reach(m, d, g1, g2, params::params(m, pair).reach)
     };
     w.pairs.pairs.iter().filter(near).count()
 }

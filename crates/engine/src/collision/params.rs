@@ -123,7 +123,7 @@ fn mixed(m: &Model, g1: usize, g2: usize) -> Params {
 /// The contact of a pair at the contact point `touch`.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn contact(p: &Params, g1: usize, g2: usize, touch: &ContactPoint, frame: Mat3) -> Contact {
-    let apart = touch.dist >= p.margin;
+    let beyond_margin = touch.dist >= p.margin;
     // An adhesive contact also acts within the gap, but there only in the normal direction.
     let sticks = p.adhesion != 0.0;
     Contact {
@@ -137,10 +137,10 @@ pub(super) fn contact(p: &Params, g1: usize, g2: usize, touch: &ContactPoint, fr
         solimp: p.solimp,
         adhesion: p.adhesion,
         mu: 0.0,
-        dim: if apart && sticks { 1 } else { p.dim },
+        dim: if beyond_margin && sticks { 1 } else { p.dim },
         geom1: g1,
         geom2: g2,
-        exclude: if apart && !sticks { exclude::IN_GAP } else { exclude::NO },
+        exclude: if beyond_margin && !sticks { exclude::IN_GAP } else { exclude::NO },
         efc_address: None,
     }
 }

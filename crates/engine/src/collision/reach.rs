@@ -16,7 +16,7 @@ pub(super) struct Spheres {
     /// The geoms whose spheres are compared, and their centres in groups of four: x, y, z.
     geoms: Vec<u32>,
     centres: Vec<[[f64; 4]; 3]>,
-    comparisons: Vec<Comparison>,
+    comparisons: Vec<GroupComparison>,
     /// One bit for each pair of the list: pairs whose spheres are not compared, and pairs that are currently in
     /// reach.
     others: Vec<u64>,
@@ -25,7 +25,7 @@ pub(super) struct Spheres {
 
 /// A geom and a group of four others, by the index of the group.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Comparison {
+struct GroupComparison {
     geom: u32,
     four: u32,
     /// For each lane, the squared distance of the centres above which the pair is out of reach, and the index of the
@@ -58,12 +58,12 @@ impl Spheres {
         };
         let mut all: Vec<(u32, u32, u32)> = compared().map(ordered).collect();
         sort(&mut all);
-        let mut comparisons: Vec<Comparison> = Vec::new();
+        let mut comparisons: Vec<GroupComparison> = Vec::new();
         for (geom, other, pair) in all {
             let (four, lane) = (other / 4, other as usize % 4);
-            let free = |c: &Comparison| (c.geom, c.four, c.pairs[lane]) == (geom, four, NONE);
+            let free = |c: &GroupComparison| (c.geom, c.four, c.pairs[lane]) == (geom, four, NONE);
             if !comparisons.last().is_some_and(free) {
-                let none = Comparison { geom, four, limits: [f64::NEG_INFINITY; 4], pairs: [NONE; 4] };
+                let none = GroupComparison { geom, four, limits: [f64::NEG_INFINITY; 4], pairs: [NONE; 4] };
                 comparisons.push(none);
             }
             if let Some(last) = comparisons.last_mut() {

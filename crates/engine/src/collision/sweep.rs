@@ -16,7 +16,7 @@ use crate::model::{Fields, Model};
 /// The bounding sphere of a geom, enlarged by its margin, its interval on the axis, and the columns that it
 /// intersects.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Shadow {
+struct SweepEntry {
     low: f64,
     high: f64,
     centre: Vec3,
@@ -28,16 +28,16 @@ struct Shadow {
     wide: bool,
 }
 
-impl Shadow {
+impl SweepEntry {
     #[cfg_attr(not(feature = "small"), inline(always))]
-    fn near(&self, other: &Shadow) -> bool {
+    fn near(&self, other: &SweepEntry) -> bool {
         let between = sub(self.centre, other.centre);
         let reach = self.radius + other.radius;
         dot(between, between) <= reach * reach
     }
 
     /// The first column that two geoms share. They must share at least one.
-    fn first_common(&self, other: &Shadow) -> [i32; 2] {
+    fn first_common(&self, other: &SweepEntry) -> [i32; 2] {
         let [a, b] = [self.columns, other.columns];
         [a[0][0].max(b[0][0]), a[1][0].max(b[1][0])]
     }
@@ -56,7 +56,7 @@ type Entry = ([i32; 2], u32);
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Sweep {
     /// Bounded geoms, sorted by the lower end of their interval in the last step.
-    shadows: Vec<Shadow>,
+    shadows: Vec<SweepEntry>,
     /// Planes, which are unbounded.
     planes: Vec<u32>,
     /// Geoms wider than a column, sorted by lower end.
@@ -82,14 +82,14 @@ impl Sweep {
     pub(super) fn new(m: &Model, may_change: bool) -> Sweep {
         // A geom without contact bits does not take part.
         let bits = |g: usize| may_change || m.geom_contype[g] != 0 || m.geom_conaffinity[g] != 0;
-        let of = |bounded: bool| {
+        let geoms_with = |bounded: bool| {
             let size = move |g: &usize| (m.geom_rbound[*g] > 0.0) == bounded;
             (0..m.ngeom).filter(size).filter(move |&g| bits(g)).map(|g| g as u32)
         };
-        let n = of(true).count();
+        let n = geoms_with(true).count();
         Sweep {
-            shadows: of(true).map(|geom| Shadow { geom, ..Shadow::default() }).collect(),
-            planes: of(false).collect(),
+            shadows: geoms_with(true).map(|geom| SweepEntry { geom, ..SweepEntry::default() }).collect(),
+            planes: geoms_with(false).collect(),
             wide: Vec::with_capacity(n),
             entries: Vec::with_capacity(MOST_COLUMNS * n),
             active: Vec::with_capacity(n),
@@ -113,7 +113,7 @@ impl Sweep {
             let reach =
                 |plane: usize| s.radius - m.geom_rbound[s.geom as usize] + params::half_reach(m, plane);
             let below = self.planes.iter().map(|&plane| plane as usize);
-            let below = below.filter(|&plane| !far_apart(m, d, plane, s.geom as usize, reach(plane)));
+            let below = below.filter(|&plane| !out_of_reach(m, d, plane, s.geom as usize, reach(plane)));
             self.near.extend(below.filter_map(|plane| may_touch(m, plane, s.geom as usize)));
         }
         sort_by(&mut self.near, |p, q| p.order(m).cmp(&q.order(m)));
@@ -206,7 +206,7 @@ impl Sweep {
         for &k in &self.wide {
             let s = &self.shadows[k as usize];
             if s.spans() > self.shadows.len() as i64 {
-                // For so many columns, searching each column costs more than testing every geom.
+                // For this many columns, searching each column costs more than testing every geom.
                 for other in self.shadows.iter().filter(|other| !other.wide) {
                     self.tested += 1;
                     if other.near(s) {
@@ -248,7 +248,7 @@ fn may_touch(m: &Model, a: usize, b: usize) -> Option<Pair> {
 }
 
 /// The axis with the largest variance of the centres.
-fn axis_of_largest_variance(shadows: &[Shadow], centres: &[Vec3]) -> usize {
+fn axis_of_largest_variance(shadows: &[SweepEntry], centres: &[Vec3]) -> usize {
     let n = shadows.len().max(1) as f64;
     let (mut sum, mut squares) = ([0.0; 3], [0.0; 3]);
     for s in shadows {
@@ -264,7 +264,7 @@ fn axis_of_largest_variance(shadows: &[Shadow], centres: &[Vec3]) -> usize {
 
 /// Whether the bounding spheres of two geoms, or a bounding sphere and a plane, are farther apart than `reach`.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(super) fn far_apart(m: &Model, d: &Fields, a: usize, b: usize, reach: f64) -> bool {
+pub(super) fn out_of_reach(m: &Model, d: &Fields, a: usize, b: usize, reach: f64) -> bool {
     let (pos, mat) = (rows::<3>(&d.geom_xpos), rows::<9>(&d.geom_xmat));
     let (ra, rb) = (m.geom_rbound[a], m.geom_rbound[b]);
     let between = sub(pos[b], pos[a]);

@@ -36,7 +36,8 @@ fn contacts(m: &Model, sweep: bool) -> Vec<Contact> {
     reset_data(m, &mut d, &mut s);
     s.collision.pairs = pairs(m, Changes::default());
     if sweep {
-        s.collision.pairs = Pairs { sweep: Some(Box::new(Sweep::new(m, false))), ..Pairs::default() };
+        s.collision.pairs =
+            CandidatePairs { sweep: Some(Box::new(Sweep::new(m, false))), ..CandidatePairs::default() };
     }
     kinematics(m, &mut d, &mut s.dynamics);
     // Two runs: the second one starts with the order of the first.

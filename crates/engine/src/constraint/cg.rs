@@ -4,13 +4,13 @@
 //! guaranteed descent and an efficient line search*).
 
 use super::iterate::IslandProgress;
-use super::primal::{Direction, Problem};
+use super::primal::{Direction, PrimalProblem};
 use crate::math::MINVAL;
 
 /// η of the truncation, which keeps it finite if the gradient vanishes.
 const ETA: f64 = 0.01;
 
-impl Problem<'_> {
+impl PrimalProblem<'_> {
     #[inline(never)]
     pub(super) fn conjugate_gradient(&mut self, from: IslandProgress) {
         if from.minimum {

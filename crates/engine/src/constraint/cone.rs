@@ -261,9 +261,9 @@ mod tests {
             let step = normal / (pull + steepest * normal).max(f64::MIN_POSITIVE);
             let moved: Vec<f64> = y.iter().zip(&slope).map(|(y, s)| y - step * s).collect();
             let onto = (normal / length(&moved)).min(1.0);
-            let apart: Vec<f64> = moved.iter().zip(&y).map(|(m, y)| m * onto - y).collect();
+            let difference: Vec<f64> = moved.iter().zip(&y).map(|(m, y)| m * onto - y).collect();
             let worst = &mut worst[usize::from(rank < N + 1 || none)];
-            *worst = worst.max(length(&apart) / normal);
+            *worst = worst.max(length(&difference) / normal);
         }
         worst
     }

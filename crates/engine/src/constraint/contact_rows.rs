@@ -1,11 +1,11 @@
 //! The rows of contacts: the normal direction, and for friction the edges of a pyramid or the axes of a cone.
 
-use super::Scratch;
+use super::ConstraintScratch;
 use super::cost::Cost;
 use super::impedance::{Acts, Kbi, kbi, kbi_friction};
-use super::jacobian::Jacobian;
+use super::jacobian::ConstraintJacobian;
 use super::kind;
-use super::rows::{Rows, inverse_weight, push, regularization};
+use super::rows::{ConstraintRows, inverse_weight, push, regularization};
 use crate::dynamics::jacobian::{self, Columns};
 use crate::kinds::{cone, exclude};
 use crate::math::*;
@@ -27,9 +27,9 @@ pub(super) fn count(m: &Model, d: &Fields) -> usize {
 ///
 /// A contact that no degree of freedom opens or closes has no rows. There is one exception: with dense matrices, two
 /// geoms on the same moving body have rows of zeros, as in MuJoCo. The forces of these rows have no effect.
-pub(super) fn make(m: &Model, d: &mut Fields, w: &mut Scratch) {
+pub(super) fn make(m: &Model, d: &mut Fields, w: &mut ConstraintScratch) {
     let mut list = std::mem::take(&mut d.contact);
-    let Scratch { jac, columns, .. } = w;
+    let ConstraintScratch { jac, columns, .. } = w;
     for (id, c) in list.iter_mut().enumerate() {
         c.efc_address = None;
         if c.exclude != exclude::NO {
@@ -53,8 +53,15 @@ pub(super) fn make(m: &Model, d: &mut Fields, w: &mut Scratch) {
 
 /// The properties common to all rows of a contact.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn shared<const R: usize>(c: &Contact, id: usize, kind: i32, kbi: Kbi, others: Kbi, r: [f64; R]) -> Rows<R> {
-    Rows { kind, id, pos: [c.dist; R], margin: [c.includemargin; R], loss: 0.0, kbi, others, r }
+fn shared<const R: usize>(
+    c: &Contact,
+    id: usize,
+    kind: i32,
+    kbi: Kbi,
+    others: Kbi,
+    r: [f64; R],
+) -> ConstraintRows<R> {
+    ConstraintRows { kind, id, pos: [c.dist; R], margin: [c.includemargin; R], loss: 0.0, kbi, others, r }
 }
 
 /// Creates the rows of contacts without friction, and of pyramids for sliding friction, with the edges n ± μ t.
@@ -62,7 +69,7 @@ fn shared<const R: usize>(c: &Contact, id: usize, kind: i32, kbi: Kbi, others: K
 fn common(
     m: &Model,
     d: &mut Fields,
-    jac: &mut Jacobian,
+    jac: &mut ConstraintJacobian,
     id: usize,
     c: &mut Contact,
     bodies: [usize; 2],
@@ -90,7 +97,7 @@ fn common(
 fn other(
     m: &Model,
     d: &mut Fields,
-    jac: &mut Jacobian,
+    jac: &mut ConstraintJacobian,
     id: usize,
     c: &mut Contact,
     bodies: [usize; 2],
@@ -121,7 +128,7 @@ fn space(columns: &Columns) -> impl Iterator<Item = [f64; 6]> {
 fn pyramid<const R: usize>(
     m: &Model,
     d: &mut Fields,
-    jac: &mut Jacobian,
+    jac: &mut ConstraintJacobian,
     id: usize,
     c: &mut Contact,
     bodies: [usize; 2],
@@ -143,7 +150,7 @@ fn pyramid<const R: usize>(
 fn cone<const R: usize>(
     m: &Model,
     d: &mut Fields,
-    jac: &mut Jacobian,
+    jac: &mut ConstraintJacobian,
     id: usize,
     c: &mut Contact,
     bodies: [usize; 2],

@@ -60,17 +60,17 @@ pub(super) fn unilateral_curvature(x: f64, stiff: f64) -> f64 {
 /// v.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn unilateral_along(x: f64, v: f64, alpha: f64, stiff: f64) -> [f64; 3] {
-    let now = x + alpha * v;
-    let (before, after) = (x.min(0.0), now.min(0.0));
+    let current = x + alpha * v;
+    let (before, after) = (x.min(0.0), current.min(0.0));
     // The difference of squares is factored: near the minimum, subtracting squares would leave only rounding errors.
     let change = if before < 0.0 && after < 0.0 { alpha * v } else { after - before };
     let cost = 0.5 * stiff * change * (after + before);
-    if now < 0.0 { [cost, stiff * now * v, stiff * v * v] } else { [cost, 0.0, 0.0] }
+    if current < 0.0 { [cost, stiff * current * v, stiff * v * v] } else { [cost, 0.0, 0.0] }
 }
 
 /// The parameters of the cost of one constraint.
 #[derive(Clone, Copy)]
-pub(super) struct Shape<'a, const R: usize> {
+pub(super) struct CostParameters<'a, const R: usize> {
     pub(super) cost: Cost,
     /// 1/R of each row.
     pub(super) stiff: &'a [f64; R],
@@ -122,7 +122,7 @@ impl<const R: usize> SlidingCone<R> {
     }
 }
 
-impl<const R: usize> Shape<'_, R> {
+impl<const R: usize> CostParameters<'_, R> {
     /// Cost and force at x.
     #[inline]
     pub(super) fn value(&self, x: &[f64; R]) -> (f64, [f64; R]) {
@@ -221,9 +221,9 @@ impl<const R: usize> Shape<'_, R> {
     /// would leave only rounding errors.
     #[inline]
     pub(super) fn along(&self, x: &[f64; R], v: &[f64; R], alpha: f64) -> [f64; 3] {
-        let now: [f64; R] = std::array::from_fn(|r| x[r] + alpha * v[r]);
-        let (before, after) = (self.zone(x), self.zone(&now));
-        let (cost, force) = self.value_in(&after, &now);
+        let current: [f64; R] = std::array::from_fn(|r| x[r] + alpha * v[r]);
+        let (before, after) = (self.zone(x), self.zone(&current));
+        let (cost, force) = self.value_in(&after, &current);
         let mut slope = 0.0;
         for r in 0..R {
             slope -= force[r] * v[r];
@@ -231,7 +231,7 @@ impl<const R: usize> Shape<'_, R> {
         let change = match (&before, &after) {
             (Zone::Satisfied, Zone::Satisfied) => 0.0,
             (Zone::Quadratic, Zone::Quadratic) => {
-                (0..R).map(|r| 0.5 * self.stiff[r] * alpha * v[r] * (x[r] + now[r])).sum()
+                (0..R).map(|r| 0.5 * self.stiff[r] * alpha * v[r] * (x[r] + current[r])).sum()
             }
             (Zone::Unilateral, Zone::Unilateral) => {
                 (0..R).map(|r| unilateral_along(x[r], v[r], alpha, self.stiff[r])[0]).sum()
@@ -244,16 +244,16 @@ impl<const R: usize> Shape<'_, R> {
             }
             _ => cost - self.value_in(&before, x).0,
         };
-        [change, slope, self.curvature_in(&after, &now).along(v)]
+        [change, slope, self.curvature_in(&after, &current).along(v)]
     }
 
     /// Whether the cost is a single quadratic function from x to x + v.
     #[inline]
     pub(super) fn is_quadratic_along(&self, x: &[f64; R], v: &[f64; R]) -> bool {
-        let now: [f64; R] = std::array::from_fn(|r| x[r] + v[r]);
-        match (self.zone(x), self.zone(&now)) {
+        let current: [f64; R] = std::array::from_fn(|r| x[r] + v[r]);
+        match (self.zone(x), self.zone(&current)) {
             (Zone::Satisfied, Zone::Satisfied) | (Zone::Quadratic, Zone::Quadratic) => true,
-            (Zone::Unilateral, Zone::Unilateral) => (0..R).all(|r| (x[r] < 0.0) == (now[r] < 0.0)),
+            (Zone::Unilateral, Zone::Unilateral) => (0..R).all(|r| (x[r] < 0.0) == (current[r] < 0.0)),
             (Zone::Linear(a), Zone::Linear(b)) => a == b,
             _ => false,
         }
@@ -333,15 +333,19 @@ mod tests {
             }
             let cost = [Cost::Quadratic, Cost::Unilateral, Cost::DryFriction, Cost::Cone][which];
             if which == 2 {
-                let shape = Shape { cost, stiff: &[d0], loss, contact: None };
+                let shape = CostParameters { cost, stiff: &[d0], loss, contact: None };
                 check_shape(&shape, &[x[0]], &[v[0]])?;
             } else {
-                check_shape(&Shape { cost, stiff: &stiff, loss, contact: Some(&contact) }, &x, &v)?;
+                check_shape(&CostParameters { cost, stiff: &stiff, loss, contact: Some(&contact) }, &x, &v)?;
             }
         }
     }
 
-    fn check_shape<const R: usize>(s: &Shape<R>, x: &[f64; R], v: &[f64; R]) -> Result<(), TestCaseError> {
+    fn check_shape<const R: usize>(
+        s: &CostParameters<R>,
+        x: &[f64; R],
+        v: &[f64; R],
+    ) -> Result<(), TestCaseError> {
         let at = |alpha: f64| -> [f64; R] { std::array::from_fn(|r| x[r] + alpha * v[r]) };
         let h = 1e-6;
         let (ahead, behind) = (s.value(&at(h)), s.value(&at(-h)));

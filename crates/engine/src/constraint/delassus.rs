@@ -1,6 +1,6 @@
 //! Matrices of the dual methods: M⁻¹ Jᵀ, and the diagonal blocks of A = J M⁻¹ Jᵀ.
 
-use super::jacobian::{Block, Jacobian};
+use super::jacobian::{ConstraintJacobian, JacobianBlock};
 use crate::dynamics::mass;
 use crate::model::{Fields, Model};
 
@@ -8,7 +8,7 @@ use crate::model::{Fields, Model};
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Dual {
     /// M⁻¹ Jᵀ, in the blocks of J, with columns for all degrees of freedom of the trees that a block moves.
-    pub(super) inverse: Jacobian,
+    pub(super) inverse: ConstraintJacobian,
     /// Diagonal blocks of A, row-major, and the start of each.
     pub(super) delassus_blocks: Vec<f64>,
     pub(super) start: Vec<u32>,
@@ -33,7 +33,7 @@ pub(super) struct RowGroup {
 
 impl Dual {
     /// Computes M⁻¹ Jᵀ and the diagonal blocks of A.
-    pub(super) fn build(&mut self, m: &Model, d: &Fields, jac: &Jacobian) {
+    pub(super) fn build(&mut self, m: &Model, d: &Fields, jac: &ConstraintJacobian) {
         self.inverse.clear();
         self.delassus_blocks.clear();
         self.start.clear();
@@ -47,7 +47,7 @@ impl Dual {
         }
     }
 
-    fn block(&mut self, m: &Model, d: &Fields, jac: &Jacobian, b: &Block) {
+    fn block(&mut self, m: &Model, d: &Fields, jac: &ConstraintJacobian, b: &JacobianBlock) {
         let n = b.nrow as usize;
         let trees = jac.trees(m, b);
         let values = self.inverse.push_zeros(b, trees.clone().flat_map(|t| m.tree_dofs(t)));
@@ -78,7 +78,7 @@ impl Dual {
     }
 
     /// The diagonal block of A for N rows.
-    pub(super) fn delassus<const N: usize>(&self, b: &Block, group: RowGroup) -> [[f64; N]; N] {
+    pub(super) fn delassus<const N: usize>(&self, b: &JacobianBlock, group: RowGroup) -> [[f64; N]; N] {
         let (at, n) = (self.start[group.block as usize] as usize, b.nrow as usize);
         let first = group.first as usize;
         std::array::from_fn(|i| {

@@ -6,8 +6,8 @@
 //! the diagonal blocks of A are stored.
 
 use super::delassus::RowGroup;
-use super::jacobian::Block;
-use super::primal::Problem;
+use super::jacobian::JacobianBlock;
+use super::primal::PrimalProblem;
 use super::row_counts::by_rows;
 use crate::dynamics::mass;
 use crate::math::broken_invariant;
@@ -16,7 +16,7 @@ use crate::math::broken_invariant;
 /// limit.
 pub(super) const MOST_SWEEPS: i32 = 100_000;
 
-impl Problem<'_> {
+impl PrimalProblem<'_> {
     /// Work units of one sweep over the forces of the island.
     pub(super) fn sweep_cost(&self) -> u64 {
         let [blocks, _, values] = self.s.dual.inverse.size();
@@ -42,7 +42,7 @@ impl Problem<'_> {
 
     /// b + A f of N rows: the deviation of the acceleration from the reference.
     #[inline]
-    pub(super) fn residual<const N: usize>(&self, b: &Block, group: RowGroup) -> [f64; N] {
+    pub(super) fn residual<const N: usize>(&self, b: &JacobianBlock, group: RowGroup) -> [f64; N] {
         let first = group.first as usize;
         let mut sums = [0.0; N];
         for (&k, v) in self.jac.terms(b) {
@@ -59,7 +59,7 @@ impl Problem<'_> {
 
     /// Sets the forces of N rows.
     #[inline]
-    pub(super) fn set_forces<const N: usize>(&mut self, b: &Block, group: RowGroup, force: [f64; N]) {
+    pub(super) fn set_forces<const N: usize>(&mut self, b: &JacobianBlock, group: RowGroup, force: [f64; N]) {
         let first = group.first as usize;
         let row = b.row as usize + first;
         let Some(old) = self.d.efc_force[row..].first_chunk_mut::<N>() else {

@@ -53,7 +53,7 @@ pub fn set_const(m: &mut Model, d: &Fields) {
 
 /// One end of a constraint: its body, the constrained point, and for a weld the orientation, world frame.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct End {
+pub(crate) struct ConstraintEnd {
     pub(crate) body: usize,
     pub(crate) point: Vec3,
     pub(crate) quat: Quat,
@@ -69,7 +69,7 @@ pub(crate) fn rows_of(m: &Model, e: usize) -> usize {
 }
 
 /// Both ends of a connect or weld. Returns `None` for constraints of joints and tendons.
-pub(crate) fn ends(m: &Model, d: &Fields, e: usize) -> Option<[End; 2]> {
+pub(crate) fn ends(m: &Model, d: &Fields, e: usize) -> Option<[ConstraintEnd; 2]> {
     let data = rows::<DATA>(&m.eq_data).get(e)?;
     let weld = m.eq_type[e] == eqtype::WELD;
     if !weld && m.eq_type[e] != eqtype::CONNECT {
@@ -80,7 +80,7 @@ pub(crate) fn ends(m: &Model, d: &Fields, e: usize) -> Option<[End; 2]> {
         let end = |id: usize| {
             let f = object::frame(m, d, Obj::Site as i32, id)?;
             let quat = if weld { object::orientation(m, d, Obj::Site as i32, id)? } else { IDENTITY };
-            Some(End { body: f.body, point: f.pos, quat })
+            Some(ConstraintEnd { body: f.body, point: f.pos, quat })
         };
         return Some([end(ids[0])?, end(ids[1])?]);
     }
@@ -91,14 +91,14 @@ pub(crate) fn ends(m: &Model, d: &Fields, e: usize) -> Option<[End; 2]> {
     let end = |id: usize, anchor: Vec3, relative: Quat| {
         let f = object::frame(m, d, Obj::XBody as i32, id)?;
         let quat = if weld { quat_mul(*rows(&d.xquat).get(id)?, relative) } else { IDENTITY };
-        Some(End { body: id, point: add(f.pos, mat_mul_vec(&f.mat, anchor)), quat })
+        Some(ConstraintEnd { body: id, point: add(f.pos, mat_mul_vec(&f.mat, anchor)), quat })
     };
     Some([end(ids[0], anchors[0], relative)?, end(ids[1], anchors[1], IDENTITY)?])
 }
 
 /// Force and torque on body 1, in world axes, for the forces `rows` of a constraint with the ends `ends`. Those on
 /// body 2 are opposite; each acts at the point of its own end.
-pub(crate) fn wrench(m: &Model, e: usize, ends: &[End; 2], rows: &[f64]) -> (Vec3, Vec3) {
+pub(crate) fn wrench(m: &Model, e: usize, ends: &[ConstraintEnd; 2], rows: &[f64]) -> (Vec3, Vec3) {
     let (Some(&force), turn) = (rows.first_chunk::<3>(), rows.get(3..)) else { return ([0.0; 3], [0.0; 3]) };
     let Some(&f) = turn.and_then(|t| t.first_chunk::<3>()) else { return (force, [0.0; 3]) };
     let torquescale = m.eq_data[DATA * e + 10];

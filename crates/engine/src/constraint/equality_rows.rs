@@ -4,13 +4,13 @@
 //! ω₂) q₁). One joint or tendon follows a polynomial of another (MuJoCo's documentation, "Computation: Constraint
 //! model, Equality").
 
-use super::Scratch;
+use super::ConstraintScratch;
 use super::cost::Cost;
-use super::ends::{self, End};
+use super::ends::{self, ConstraintEnd};
 use super::impedance::{Acts, kbi};
-use super::jacobian::Jacobian;
+use super::jacobian::ConstraintJacobian;
 use super::kind;
-use super::rows::{Rows, inverse_weight, push, regularization};
+use super::rows::{ConstraintRows, inverse_weight, push, regularization};
 use crate::dynamics::jacobian::{self, Columns};
 use crate::forces::tendon;
 use crate::kinds::eqtype;
@@ -24,8 +24,8 @@ pub(super) fn count(m: &Model, d: &Fields) -> usize {
 }
 
 /// Creates the rows of all active constraints, ordered by id.
-pub(super) fn make(m: &Model, d: &mut Fields, w: &mut Scratch) {
-    let Scratch { jac, columns, .. } = w;
+pub(super) fn make(m: &Model, d: &mut Fields, w: &mut ConstraintScratch) {
+    let ConstraintScratch { jac, columns, .. } = w;
     for e in 0..m.neq {
         if !d.eq_active[e] || asleep::equality(m, d, e) {
             continue;
@@ -46,15 +46,31 @@ fn scalars<const R: usize>(m: &Model, d: &mut Fields, e: usize, pos: [f64; R], o
     let r = weight.map(|w| regularization(kbi.imp, w));
     push::<R>(
         d,
-        &Rows { kind: kind::EQUALITY, id: e, pos, margin: [0.0; R], loss: 0.0, kbi, others: kbi, r },
+        &ConstraintRows {
+            kind: kind::EQUALITY,
+            id: e,
+            pos,
+            margin: [0.0; R],
+            loss: 0.0,
+            kbi,
+            others: kbi,
+            r,
+        },
     );
 }
 
-fn difference(m: &Model, d: &Fields, ends: &[End; 2], out: &mut Columns) {
+fn difference(m: &Model, d: &Fields, ends: &[ConstraintEnd; 2], out: &mut Columns) {
     jacobian::pair_difference(m, d, [ends[0].body, ends[1].body], [ends[0].point, ends[1].point], out);
 }
 
-fn connect(m: &Model, d: &mut Fields, jac: &mut Jacobian, e: usize, ends: &[End; 2], columns: &mut Columns) {
+fn connect(
+    m: &Model,
+    d: &mut Fields,
+    jac: &mut ConstraintJacobian,
+    e: usize,
+    ends: &[ConstraintEnd; 2],
+    columns: &mut Columns,
+) {
     difference(m, d, ends, columns);
     jac.push::<3>(Cost::Quadratic, d.nefc, columns.dofs(), columns.values().iter().copied());
     if jac.keep_if_moving(m) {
@@ -63,7 +79,14 @@ fn connect(m: &Model, d: &mut Fields, jac: &mut Jacobian, e: usize, ends: &[End;
     }
 }
 
-fn weld(m: &Model, d: &mut Fields, jac: &mut Jacobian, e: usize, ends: &[End; 2], columns: &mut Columns) {
+fn weld(
+    m: &Model,
+    d: &mut Fields,
+    jac: &mut ConstraintJacobian,
+    e: usize,
+    ends: &[ConstraintEnd; 2],
+    columns: &mut Columns,
+) {
     difference(m, d, ends, columns);
     let torquescale = rows::<11>(&m.eq_data)[e][10];
     let both = columns.values().iter().zip(columns.angular_part()).map(|(&[x, y, z], &turn)| {
@@ -85,7 +108,7 @@ fn weld(m: &Model, d: &mut Fields, jac: &mut Jacobian, e: usize, ends: &[End; 2]
 }
 
 /// Im(q₂⁻¹ w q₁)
-fn relative_rotation_rate(ends: &[End; 2], [x, y, z]: Vec3) -> Vec3 {
+fn relative_rotation_rate(ends: &[ConstraintEnd; 2], [x, y, z]: Vec3) -> Vec3 {
     let [_, a, b, c] = quat_mul(quat_mul(quat_conj(ends[1].quat), [0.0, x, y, z]), ends[0].quat);
     [a, b, c]
 }
@@ -114,7 +137,7 @@ fn coupled(m: &Model, e: usize, first: f64, second: Option<f64>) -> (f64, f64) {
     }
 }
 
-fn coupled_joints(m: &Model, d: &mut Fields, jac: &mut Jacobian, e: usize) {
+fn coupled_joints(m: &Model, d: &mut Fields, jac: &mut ConstraintJacobian, e: usize) {
     let first = object_index(m.eq_obj1id[e]);
     let second = usize::try_from(m.eq_obj2id[e]).ok();
     let moved = |j: usize| {
@@ -134,7 +157,7 @@ fn coupled_joints(m: &Model, d: &mut Fields, jac: &mut Jacobian, e: usize) {
     }
 }
 
-fn coupled_tendons(m: &Model, d: &mut Fields, jac: &mut Jacobian, e: usize) {
+fn coupled_tendons(m: &Model, d: &mut Fields, jac: &mut ConstraintJacobian, e: usize) {
     let first = object_index(m.eq_obj1id[e]);
     let second = usize::try_from(m.eq_obj2id[e]).ok();
     let moved = |t: usize| d.ten_length[t] - m.tendon_length0[t];

@@ -1,6 +1,6 @@
 //! The `diagexact` flag: regularization from the exact diagonal of J M⁻¹ Jᵀ instead of its estimate at `qpos0`.
 
-use super::Scratch;
+use super::ConstraintScratch;
 use super::contact_rows;
 use super::kind;
 use super::row_counts::MOST_ROWS;
@@ -9,7 +9,7 @@ use crate::dynamics::mass;
 use crate::model::{Fields, Model};
 
 /// Replaces `efc_R` and the quantities that are derived from it.
-pub(super) fn regularize(m: &Model, d: &mut Fields, w: &mut Scratch) {
+pub(super) fn regularize(m: &Model, d: &mut Fields, w: &mut ConstraintScratch) {
     for i in 0..w.jac.blocks.len() {
         d.meter.add(u64::from(w.jac.blocks[i].nrow) * (m.nv + 2 * m.nC) as u64);
         if d.meter.over() {
@@ -19,7 +19,7 @@ pub(super) fn regularize(m: &Model, d: &mut Fields, w: &mut Scratch) {
     }
 }
 
-fn block(m: &Model, d: &mut Fields, w: &mut Scratch, i: usize) {
+fn block(m: &Model, d: &mut Fields, w: &mut ConstraintScratch, i: usize) {
     let b = w.jac.blocks[i];
     let row = b.row as usize;
     let (jac, x) = (&w.jac, &mut w.column);

@@ -10,14 +10,14 @@
 mod tree_order;
 
 use super::island::Islands;
-use super::jacobian::{HessianAccumulator, Jacobian};
+use super::jacobian::{ConstraintJacobian, HessianAccumulator};
 use crate::dynamics::mass;
 use crate::math::lanes::total;
 use crate::math::{self, MINVAL, broken_invariant};
 use crate::model::Model;
 use std::array::from_fn;
 use std::ops::Range;
-use tree_order::Order;
+use tree_order::TreeOrder;
 use wide::f64x4;
 
 /// Maximum number of degrees of freedom for which trees keep the order of the model.
@@ -62,7 +62,7 @@ pub(super) struct Hessian {
     passed: usize,
     /// Scratch for a block of the Jacobian: its rows in groups of four columns.
     fours: Vec<Four>,
-    order: Order,
+    order: TreeOrder,
     /// How many times a layout was computed.
     #[cfg(test)]
     pub(super) laid_out: usize,
@@ -87,7 +87,7 @@ struct ColumnBlocks {
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct ColumnBlock {
     block: u32,
-    of: [u32; 4],
+    columns: [u32; 4],
 }
 
 /// Marks a column that the Jacobian block does not have.
@@ -115,7 +115,7 @@ impl Hessian {
     pub(super) fn compute_layout(
         &mut self,
         m: &Model,
-        jac: &Jacobian,
+        jac: &ConstraintJacobian,
         islands: &Islands,
         island: usize,
     ) -> bool {
@@ -174,7 +174,7 @@ impl Hessian {
 
     /// Finds the first column of every row. Rows of M begin at the first descendant; rows of a Jacobian block all
     /// begin at its first column.
-    fn find_first(&mut self, m: &Model, jac: &Jacobian, islands: &Islands, island: usize) {
+    fn find_first(&mut self, m: &Model, jac: &ConstraintJacobian, islands: &Islands, island: usize) {
         let (first, local) = (&mut self.first, &self.local);
         first.clear();
         first.extend(0..self.len as u32);
@@ -210,7 +210,7 @@ impl Hessian {
     }
 
     /// Finds the column blocks of H for the columns of Jacobian blocks.
-    fn place_columns(&mut self, jac: &Jacobian, blocks: impl Iterator<Item = usize>) {
+    fn place_columns(&mut self, jac: &ConstraintJacobian, blocks: impl Iterator<Item = usize>) {
         self.column_blocks.clear();
         self.listed_columns.clear();
         self.lanes.clear();
@@ -233,10 +233,10 @@ impl Hessian {
                     q -= 1;
                 }
                 if q == first || self.lanes[q - 1].block < block {
-                    self.lanes.insert(q, ColumnBlock { block, of: [NONE; 4] });
+                    self.lanes.insert(q, ColumnBlock { block, columns: [NONE; 4] });
                     q += 1;
                 }
-                self.lanes[q - 1].of[lane] = p as u32;
+                self.lanes[q - 1].columns[lane] = p as u32;
             }
             self.column_blocks.push(ColumnBlocks {
                 columns: column..self.listed_columns.len(),
@@ -411,7 +411,7 @@ impl HessianAccumulator for Hessian {
         }
         let fours = &mut fours.as_chunks_mut::<R>().0[..lanes.len()];
         for (lane_columns, four) in lanes.iter().zip(fours.iter_mut()) {
-            let columns = lane_columns.of.map(|p| v.get(p as usize).unwrap_or(&[0.0; R]));
+            let columns = lane_columns.columns.map(|p| v.get(p as usize).unwrap_or(&[0.0; R]));
             *four = from_fn(|r| columns.map(|v| v[r]));
         }
         for (q, lane_columns) in lanes.iter().enumerate() {
@@ -419,7 +419,7 @@ impl HessianAccumulator for Hessian {
             let row = &mut values[start..][..lane_columns.block as usize + 1 - first];
             // Elements of diagonal blocks above the diagonal are never read, so they may be overwritten.
             let (lanes, fours) = (&lanes[..=q], &fours[..=q]);
-            for (lane, p) in lane_columns.of.into_iter().enumerate() {
+            for (lane, p) in lane_columns.columns.into_iter().enumerate() {
                 let Some(v) = v.get(p as usize) else { continue };
                 let w = apply_weights(v).map(f64x4::splat);
                 for (to, four) in lanes.iter().zip(fours) {

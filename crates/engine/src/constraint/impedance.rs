@@ -138,9 +138,12 @@ mod tests {
             let at = |r: f64| impedance([0.1, 0.9, 0.002, 0.3, power], r).0;
             let mut last = at(0.0);
             for i in 1..=4000 {
-                let now = at(-1e-6 * f64::from(i));
-                assert!(now >= last && now - last < 0.01, "power {power}, step {i}: {last} then {now}");
-                last = now;
+                let current = at(-1e-6 * f64::from(i));
+                assert!(
+                    current >= last && current - last < 0.01,
+                    "power {power}, step {i}: {last} then {current}"
+                );
+                last = current;
             }
             assert_eq!(last, 0.9);
         }

@@ -4,11 +4,11 @@
 //! step. Solved for the acceleration a, this is again a row: with s = 1 + h B + h² K d, its regularization is R/s and
 //! its reference is -((B + h K d) v + K d r)/s (derived from numbers of MuJoCo 3.14.0).
 
-use super::Scratch;
+use super::ConstraintScratch;
 use super::contact_rows;
 use super::cost::Cost;
 use super::equality_rows;
-use super::jacobian::{Block, Jacobian};
+use super::jacobian::{ConstraintJacobian, JacobianBlock};
 use super::kind;
 use super::row_counts::MOST_ROWS;
 use super::rows::{resize, soften};
@@ -19,7 +19,7 @@ use crate::model::{Fields, Model};
 
 /// Replaces `efc_R` and the quantities derived from it, and sets `efc_aref`. `metric` is the diagonal of the matrix
 /// that replaces M.
-pub(crate) fn at_end_of_step(m: &Model, d: &mut Fields, w: &Scratch, metric: &[f64]) {
+pub(crate) fn at_end_of_step(m: &Model, d: &mut Fields, w: &ConstraintScratch, metric: &[f64]) {
     for b in &w.jac.blocks {
         soften_block(m, d, &w.jac, metric, b);
     }
@@ -45,21 +45,21 @@ fn growth(h: f64, [k, b, imp, _]: &[f64; 4]) -> f64 {
 }
 
 /// Sets R/s for the rows of a block, scaled to the inertia of the current metric.
-fn soften_block(m: &Model, d: &mut Fields, jac: &Jacobian, metric: &[f64], b: &Block) {
+fn soften_block(m: &Model, d: &mut Fields, jac: &ConstraintJacobian, metric: &[f64], b: &JacobianBlock) {
     let (row, n) = (b.row as usize, b.nrow as usize);
     // Ratio of Σ J²/M' to Σ J²/M, using only the diagonals.
-    let (mut now, mut before) = ([0.0; MOST_ROWS], [0.0; MOST_ROWS]);
+    let (mut current, mut before) = ([0.0; MOST_ROWS], [0.0; MOST_ROWS]);
     for (&k, v) in jac.terms(b) {
         let k = k as usize;
         let inertia = d.M[mass::diagonal(m, k)];
         for (r, v) in v.iter().enumerate() {
-            now[r] += v * v / metric[k];
+            current[r] += v * v / metric[k];
             before[r] += v * v / inertia;
         }
     }
     let kbip = &rows::<4>(&d.efc_KBIP)[row..];
     let softer = |r: usize| {
-        let lighter = if before[r] > 0.0 { now[r] / before[r] } else { 1.0 };
+        let lighter = if before[r] > 0.0 { current[r] / before[r] } else { 1.0 };
         lighter / growth(m.opt.timestep, &kbip[r])
     };
     let old = &d.efc_R[row..row + n];
@@ -80,7 +80,13 @@ fn soften_block(m: &Model, d: &mut Fields, jac: &Jacobian, metric: &[f64], b: &B
 
 /// Appends a row with the cost ½ `stiff` x² for x = J a: a term of the metric that does not fit into the pattern of
 /// M.
-pub(crate) fn push_metric(d: &mut Fields, w: &mut Scratch, columns: &[i32], values: &[f64], stiff: f64) {
+pub(crate) fn push_metric(
+    d: &mut Fields,
+    w: &mut ConstraintScratch,
+    columns: &[i32],
+    values: &[f64],
+    stiff: f64,
+) {
     let row = d.nefc;
     resize(d, row + 1);
     d.nefc += 1;
@@ -90,7 +96,7 @@ pub(crate) fn push_metric(d: &mut Fields, w: &mut Scratch, columns: &[i32], valu
 }
 
 /// Removes all rows starting at `rows`, and subtracts their force from `qfrc_constraint`.
-pub(crate) fn pop_metric(d: &mut Fields, w: &mut Scratch, rows: usize) {
+pub(crate) fn pop_metric(d: &mut Fields, w: &mut ConstraintScratch, rows: usize) {
     while let Some(&b) = w.jac.blocks.last()
         && b.row as usize >= rows
     {

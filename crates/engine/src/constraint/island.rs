@@ -2,7 +2,7 @@
 //!
 //! They are the connected components, found by union-find with path halving (Tarjan and van Leeuwen 1984).
 
-use super::jacobian::Jacobian;
+use super::jacobian::ConstraintJacobian;
 use crate::kinds::disable;
 use crate::model::Model;
 use std::ops::Range;
@@ -97,7 +97,7 @@ impl Islands {
 
     /// Groups the blocks of the Jacobian and returns the number of islands, which are numbered by their first tree.
     /// If the columns of the blocks are those of the last step, nothing is computed.
-    pub(super) fn find(&mut self, m: &Model, jac: &Jacobian) -> usize {
+    pub(super) fn find(&mut self, m: &Model, jac: &ConstraintJacobian) -> usize {
         let together = m.opt.disabled(disable::ISLAND);
         if self.together == together && jac.same_columns(&self.ends, &self.columns) {
             return self.count;
@@ -151,7 +151,7 @@ impl Islands {
     }
 
     /// Assigns the number of its island to each tree that a constraint moves. Returns the number of islands.
-    fn number(&mut self, m: &Model, jac: &Jacobian) -> usize {
+    fn number(&mut self, m: &Model, jac: &ConstraintJacobian) -> usize {
         self.link.clear();
         self.link.extend(0..m.ntree as u32);
         for b in &jac.blocks {
@@ -189,10 +189,11 @@ mod tests {
     #[test]
     fn lists_keep_order_and_can_be_reused() {
         let mut lists = Lists::default();
-        for of in [vec![2u32, 0, 1, 0, 3, 2, 1], vec![0, 0, 1]] {
-            lists.fill(4, of.iter().enumerate().map(|(item, &list)| (list, item)));
+        for owners in [vec![2u32, 0, 1, 0, 3, 2, 1], vec![0, 0, 1]] {
+            lists.fill(4, owners.iter().enumerate().map(|(item, &list)| (list, item)));
             for list in 0..4 {
-                let expected: Vec<usize> = (0..of.len()).filter(|&i| of[i] as usize == list).collect();
+                let expected: Vec<usize> =
+                    (0..owners.len()).filter(|&i| owners[i] as usize == list).collect();
                 assert_eq!(lists.members(list).collect::<Vec<_>>(), expected);
             }
         }

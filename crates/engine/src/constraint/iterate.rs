@@ -22,7 +22,7 @@ pub(super) struct Iterate {
     pub(super) jv: Vec<f64>,
     /// Hessian of the current island, those of the others with their layouts, and a right-hand side.
     pub(super) hessian: Hessian,
-    pub(super) apart: Vec<Hessian>,
+    pub(super) island_hessians: Vec<Hessian>,
     pub(super) rhs: Vec<f64>,
     /// Matrices of the dual methods.
     pub(super) dual: Dual,
@@ -39,19 +39,19 @@ impl Iterate {
             return;
         }
         let most = at.max(island);
-        if self.apart.len() <= most {
-            self.apart.resize_with(most + 1, Hessian::default);
+        if self.island_hessians.len() <= most {
+            self.island_hessians.resize_with(most + 1, Hessian::default);
         }
-        std::mem::swap(&mut self.hessian, &mut self.apart[at]);
-        std::mem::swap(&mut self.hessian, &mut self.apart[island]);
-        std::mem::swap(&mut self.hessian.local, &mut self.apart[at].local);
+        std::mem::swap(&mut self.hessian, &mut self.island_hessians[at]);
+        std::mem::swap(&mut self.hessian, &mut self.island_hessians[island]);
+        std::mem::swap(&mut self.hessian.local, &mut self.island_hessians[at].local);
     }
 
     pub(super) fn resize(&mut self, nv: usize, nefc: usize) {
         if self.ma.len() != nv {
             let old = [&mut self.grad_old, &mut self.step_old];
-            let now = [&mut self.ma, &mut self.grad, &mut self.step, &mut self.search, &mut self.mv];
-            for v in now.into_iter().chain(old) {
+            let current = [&mut self.ma, &mut self.grad, &mut self.step, &mut self.search, &mut self.mv];
+            for v in current.into_iter().chain(old) {
                 v.resize(nv, 0.0);
             }
         }

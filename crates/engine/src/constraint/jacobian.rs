@@ -54,7 +54,7 @@ pub(super) fn add_entries(
 
 /// The rows of one constraint.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Block {
+pub(super) struct JacobianBlock {
     /// First row.
     pub(super) row: u32,
     /// Number of rows.
@@ -96,7 +96,7 @@ impl FreeBodies {
     }
 }
 
-impl Block {
+impl JacobianBlock {
     /// Its rows, as indexes of the `efc_*` arrays.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn rows(&self) -> Range<usize> {
@@ -132,8 +132,8 @@ fn four_products<const R: usize>(v: &[[f64; R]; 4], f: &[f64; R]) -> f64x4 {
 
 /// All blocks, in row order.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Jacobian {
-    pub(super) blocks: Vec<Block>,
+pub struct ConstraintJacobian {
+    pub(super) blocks: Vec<JacobianBlock>,
     /// Buffers that only grow and are overwritten in each step; `used_values` and `used_columns` are the lengths in
     /// use.
     values: Vec<f64>,
@@ -142,7 +142,7 @@ pub struct Jacobian {
     used_columns: usize,
 }
 
-impl Jacobian {
+impl ConstraintJacobian {
     /// Numbers of blocks, columns and values.
     pub(super) fn size(&self) -> [u64; 3] {
         [self.blocks.len(), self.used_columns, self.used_values].map(|n| n as u64)
@@ -182,7 +182,7 @@ impl Jacobian {
         if self.columns.len() < self.used_columns {
             self.columns.resize(self.used_columns, 0);
         }
-        self.blocks.push(Block {
+        self.blocks.push(JacobianBlock {
             row: row as u32,
             nrow: nrow as u32,
             cost,
@@ -206,7 +206,7 @@ impl Jacobian {
     #[cfg_attr(not(feature = "small"), inline(always))]
     fn free_bodies<const R: usize>(
         &self,
-        b: &Block,
+        b: &JacobianBlock,
     ) -> impl Iterator<Item = (usize, &[[f64; R]; FREE_DOFS])> {
         let values = self.values[b.adr as usize..].as_chunks::<R>().0.as_chunks::<FREE_DOFS>().0;
         let first = b.free.first.iter().take(b.free.bodies as usize);
@@ -215,7 +215,7 @@ impl Jacobian {
 
     /// The degrees of freedom of a block, ascending.
     #[cfg_attr(not(feature = "small"), inline(always))]
-    pub(super) fn columns(&self, b: &Block) -> &[u32] {
+    pub(super) fn columns(&self, b: &JacobianBlock) -> &[u32] {
         &self.columns[b.col as usize..(b.col + b.ncol) as usize]
     }
 
@@ -279,7 +279,11 @@ impl Jacobian {
 
     /// Appends a block with the rows of another block and other, ascending columns. Returns its values, which are
     /// zero.
-    pub(super) fn push_zeros(&mut self, like: &Block, columns: impl Iterator<Item = usize>) -> &mut [f64] {
+    pub(super) fn push_zeros(
+        &mut self,
+        like: &JacobianBlock,
+        columns: impl Iterator<Item = usize>,
+    ) -> &mut [f64] {
         self.start_block(like.cost, like.row as usize);
         let (adr, col) = (self.used_values, self.used_columns);
         for c in columns {
@@ -306,17 +310,17 @@ impl Jacobian {
     pub(super) fn trees<'a>(
         &'a self,
         m: &'a Model,
-        b: &Block,
+        b: &JacobianBlock,
     ) -> impl Iterator<Item = usize> + Clone + use<'a> {
         let mut last = usize::MAX;
-        let of = |&c: &u32| object_index(m.dof_treeid[c as usize]);
-        self.columns(b).iter().map(of).filter(move |&t| std::mem::replace(&mut last, t) != t)
+        let tree = |&c: &u32| object_index(m.dof_treeid[c as usize]);
+        self.columns(b).iter().map(tree).filter(move |&t| std::mem::replace(&mut last, t) != t)
     }
 
     /// Starts a block of one row.
     fn start_block(&mut self, cost: Cost, row: usize) {
         let (adr, col) = (self.used_values as u32, self.used_columns as u32);
-        self.blocks.push(Block {
+        self.blocks.push(JacobianBlock {
             row: row as u32,
             nrow: 1,
             cost,
@@ -346,7 +350,8 @@ impl Jacobian {
     /// Removes the last block if it moves nothing. Returns whether the block was kept.
     pub(super) fn keep_if_moving(&mut self, m: &Model) -> bool {
         let dense = super::is_dense(m);
-        let moves = |b: &Block| if dense { self.values(b).iter().any(|&v| v != 0.0) } else { b.ncol > 0 };
+        let moves =
+            |b: &JacobianBlock| if dense { self.values(b).iter().any(|&v| v != 0.0) } else { b.ncol > 0 };
         let keep = self.blocks.last().is_some_and(moves);
         if !keep {
             self.pop();
@@ -363,7 +368,7 @@ impl Jacobian {
 
     /// The values of a block, column by column.
     #[cfg_attr(not(feature = "small"), inline(always))]
-    pub(super) fn values(&self, b: &Block) -> &[f64] {
+    pub(super) fn values(&self, b: &JacobianBlock) -> &[f64] {
         &self.values[b.adr as usize..(b.adr + b.nrow * b.ncol) as usize]
     }
 
@@ -391,7 +396,7 @@ impl Jacobian {
 
     /// out ← J x for the rows of a block.
     #[cfg_attr(not(feature = "small"), inline(always))]
-    pub(super) fn mul_block(&self, b: &Block, x: &[f64], out: &mut [f64]) {
+    pub(super) fn mul_block(&self, b: &JacobianBlock, x: &[f64], out: &mut [f64]) {
         if SMALL {
             let sums = &mut out[b.rows()];
             sums.fill(0.0);
@@ -405,12 +410,12 @@ impl Jacobian {
 
     /// The columns of a block, each with its values for all rows.
     #[inline]
-    pub(super) fn terms(&self, b: &Block) -> impl Iterator<Item = (&u32, &[f64])> {
+    pub(super) fn terms(&self, b: &JacobianBlock) -> impl Iterator<Item = (&u32, &[f64])> {
         self.columns(b).iter().zip(self.values(b).chunks_exact(b.nrow as usize))
     }
 
     #[cfg_attr(not(feature = "small"), inline(always))]
-    fn mul_rows<const R: usize>(&self, b: &Block, x: &[f64], out: &mut [f64]) {
+    fn mul_rows<const R: usize>(&self, b: &JacobianBlock, x: &[f64], out: &mut [f64]) {
         let mut sum = [0.0; R];
         let mut accumulate = |v: &[f64; R], x: f64| {
             for r in 0..R {
@@ -439,7 +444,7 @@ impl Jacobian {
 
     /// out ← out + Jᵀ f for the R rows of a block.
     #[cfg_attr(not(feature = "small"), inline(always))]
-    pub(super) fn add_transposed<const R: usize>(&self, b: &Block, f: &[f64; R], out: &mut [f64]) {
+    pub(super) fn add_transposed<const R: usize>(&self, b: &JacobianBlock, f: &[f64; R], out: &mut [f64]) {
         if SMALL {
             return self.add_rows_transposed(b, 0, f, out);
         }
@@ -470,9 +475,9 @@ impl Jacobian {
     }
 }
 
-impl Jacobian {
+impl ConstraintJacobian {
     /// out ← out + Jᵀ f for the rows of a block that start at its row `first`.
-    pub(super) fn add_rows_transposed(&self, b: &Block, first: usize, f: &[f64], out: &mut [f64]) {
+    pub(super) fn add_rows_transposed(&self, b: &JacobianBlock, first: usize, f: &[f64], out: &mut [f64]) {
         for (&k, v) in self.terms(b) {
             out[k as usize] += dot_in_order(&v[first..], f);
         }
@@ -480,7 +485,7 @@ impl Jacobian {
 }
 
 /// The Jacobian of the constraints as a dense matrix, `nefc` x `nv`, row-major (`efc_J`).
-pub fn full_j(m: &Model, d: &Fields, jac: &Jacobian) -> Vec<f64> {
+pub fn full_j(m: &Model, d: &Fields, jac: &ConstraintJacobian) -> Vec<f64> {
     let mut out = vec![0.0; d.nefc * m.nv];
     for b in &jac.blocks {
         for (&k, values) in jac.columns(b).iter().zip(jac.values(b).chunks_exact(b.nrow as usize)) {

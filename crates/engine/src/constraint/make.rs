@@ -2,7 +2,7 @@
 //!
 //! Order: equalities, dry friction of joints and tendons, limits of joints and tendons, contacts.
 
-use super::Scratch;
+use super::ConstraintScratch;
 use super::contact_rows;
 use super::equality_rows;
 use super::exact;
@@ -14,7 +14,7 @@ use crate::model::{Fields, Model};
 
 /// Computes `nefc` and `efc_*` up to R and D.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(crate) fn make(m: &Model, d: &mut Fields, w: &mut Scratch) {
+pub(crate) fn make(m: &Model, d: &mut Fields, w: &mut ConstraintScratch) {
     w.jac.clear();
     let on = |bit: i32| !m.opt.disabled(disable::CONSTRAINT) && !m.opt.disabled(bit);
     let equal = d.plan.has(PlanFlag::Equalities) && on(disable::EQUALITY);
@@ -37,7 +37,7 @@ pub(crate) fn make(m: &Model, d: &mut Fields, w: &mut Scratch) {
 
 /// Creates the rows: equalities, dry friction and limits if the model has them, and contacts.
 #[inline(never)]
-fn fill(m: &Model, d: &mut Fields, w: &mut Scratch, [equal, friction, limits]: [bool; 3]) {
+fn fill(m: &Model, d: &mut Fields, w: &mut ConstraintScratch, [equal, friction, limits]: [bool; 3]) {
     if equal {
         equality_rows::make(m, d, w);
     }
@@ -60,7 +60,7 @@ fn fill(m: &Model, d: &mut Fields, w: &mut Scratch, [equal, friction, limits]: [
 }
 
 /// Clears rows and contacts.
-pub(crate) fn none(d: &mut Fields, w: &mut Scratch) {
+pub(crate) fn none(d: &mut Fields, w: &mut ConstraintScratch) {
     w.jac.clear();
     resize(d, 0);
     (d.nefc, d.ne, d.nf, d.nl, d.nisland) = (0, 0, 0, 0, 0);

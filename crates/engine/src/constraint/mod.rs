@@ -46,13 +46,13 @@ use crate::kinds;
 use crate::model::Model;
 pub(crate) use island::Islands;
 use iterate::Iterate;
-use jacobian::Jacobian;
+use jacobian::ConstraintJacobian;
 
 /// Scratch memory of the constraint stages, kept between stages and between steps.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Scratch {
+pub struct ConstraintScratch {
     /// Jacobian of the constraints.
-    pub jac: Jacobian,
+    pub jac: ConstraintJacobian,
     /// Columns of one contact's Jacobian.
     columns: Columns,
     pub(crate) islands: Islands,
@@ -61,9 +61,9 @@ pub struct Scratch {
     column: Vec<f64>,
 }
 
-impl Scratch {
-    pub(crate) fn new(m: &Model) -> Scratch {
-        Scratch { columns: Columns::with_room(m.nv), ..Scratch::default() }
+impl ConstraintScratch {
+    pub(crate) fn new(m: &Model) -> ConstraintScratch {
+        ConstraintScratch { columns: Columns::with_room(m.nv), ..ConstraintScratch::default() }
     }
 }
 

@@ -5,8 +5,8 @@
 
 use super::cost::{Cost, Curvature, unilateral_curvature};
 use super::iterate::IslandProgress;
-use super::jacobian::{Block, HessianAccumulator, Jacobian, add_entries};
-use super::primal::{Direction, Problem, shape};
+use super::jacobian::{ConstraintJacobian, HessianAccumulator, JacobianBlock, add_entries};
+use super::primal::{Direction, PrimalProblem, shape};
 use super::row_counts::by_rows;
 use super::six::Six;
 use crate::math::{FREE_DOFS, SMALL, dot};
@@ -14,7 +14,7 @@ use crate::model::Fields;
 use std::array::from_fn;
 use std::ops::Range;
 
-impl Problem<'_> {
+impl PrimalProblem<'_> {
     #[inline(never)]
     pub(super) fn newton(&mut self, from: IslandProgress) {
         if from.minimum {
@@ -102,7 +102,7 @@ impl Problem<'_> {
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn add_curvatures(
     d: &Fields,
-    jac: &Jacobian,
+    jac: &ConstraintJacobian,
     jar: &[f64],
     blocks: impl Iterator<Item = usize>,
     h: &mut impl HessianAccumulator,
@@ -121,9 +121,9 @@ fn add_curvatures(
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn add_unilateral<const R: usize>(
     d: &Fields,
-    jac: &Jacobian,
+    jac: &ConstraintJacobian,
     jar: &[f64],
-    b: &Block,
+    b: &JacobianBlock,
     h: &mut impl HessianAccumulator,
 ) {
     let (Some(x), Some(stiff)) = (jar[b.rows()].first_chunk::<R>(), d.efc_D[b.rows()].first_chunk::<R>())
@@ -140,9 +140,9 @@ fn add_unilateral<const R: usize>(
 #[inline(never)]
 fn add_curvature<const R: usize>(
     d: &Fields,
-    jac: &Jacobian,
+    jac: &ConstraintJacobian,
     jar: &[f64],
-    b: &Block,
+    b: &JacobianBlock,
     h: &mut impl HessianAccumulator,
 ) {
     let (Some(shape), Some(x)) = (shape::<R>(d, b), jar[b.rows()].first_chunk::<R>()) else { return };
@@ -157,8 +157,8 @@ fn add_curvature<const R: usize>(
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn add<const R: usize>(
     h: &mut impl HessianAccumulator,
-    jac: &Jacobian,
-    b: &Block,
+    jac: &ConstraintJacobian,
+    b: &JacobianBlock,
     apply_weights: &dyn Fn(&[f64; R]) -> [f64; R],
 ) {
     let (columns, v) = (jac.columns(b), jac.values(b));

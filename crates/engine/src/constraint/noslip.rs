@@ -9,14 +9,14 @@ use super::cone::friction;
 use super::cost::Cost;
 use super::delassus::RowGroup;
 use super::dual::MOST_SWEEPS;
-use super::jacobian::Block;
+use super::jacobian::JacobianBlock;
 use super::kind;
-use super::primal::Problem;
+use super::primal::PrimalProblem;
 use super::row_counts::by_cone_rows;
 use crate::math::broken_invariant;
 use crate::math::dot;
 
-impl Problem<'_> {
+impl PrimalProblem<'_> {
     /// Sweeps over the friction rows of the island until one sweep improves the scaled dual objective by at most
     /// `opt.noslip_tolerance` (0 if it is negative), or until `opt.noslip_iterations` sweeps are done.
     pub(super) fn remove_slip(&mut self) {
@@ -48,7 +48,7 @@ impl Problem<'_> {
 
     /// Solves dry friction of a joint or tendon: |f| ≤ `efc_frictionloss`. Returns the improvement, like the
     /// functions below.
-    fn rigid_dry_friction(&mut self, b: &Block, group: RowGroup) -> f64 {
+    fn rigid_dry_friction(&mut self, b: &JacobianBlock, group: RowGroup) -> f64 {
         let row = b.row as usize;
         let (force, loss) = (self.d.efc_force[row], self.d.efc_frictionloss[row]);
         let [[curvature]] = self.s.dual.delassus::<1>(b, group);
@@ -59,7 +59,7 @@ impl Problem<'_> {
     }
 
     /// Solves the friction of an elliptic cone for its normal force.
-    fn rigid_cone<const N: usize>(&mut self, b: &Block, group: RowGroup) -> f64 {
+    fn rigid_cone<const N: usize>(&mut self, b: &JacobianBlock, group: RowGroup) -> f64 {
         let row = b.row as usize;
         let Some(&force) = self.d.efc_force[row..].first_chunk::<N>() else {
             return broken_invariant("every row of a block has a force");
@@ -86,7 +86,7 @@ impl Problem<'_> {
 
     /// Solves each pair of opposite edges of a pyramid. Their forces are n ± y, where n, half of their sum, is
     /// constant and |y| ≤ n.
-    fn rigid_pyramid(&mut self, b: &Block, group: RowGroup) -> f64 {
+    fn rigid_pyramid(&mut self, b: &JacobianBlock, group: RowGroup) -> f64 {
         let mut decrease = 0.0;
         for first in (0..b.nrow).step_by(2) {
             let group = RowGroup { first, ..group };

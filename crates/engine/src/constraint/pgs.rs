@@ -16,18 +16,18 @@ use super::cone::{cone_force, nearest_in_cone};
 use super::cost::Cost;
 use super::delassus::RowGroup;
 use super::dual::MOST_SWEEPS;
-use super::jacobian::Block;
-use super::primal::Problem;
+use super::jacobian::JacobianBlock;
+use super::primal::PrimalProblem;
 use super::row_counts::{by_cone_rows, by_rows};
 use crate::math::{Ldl, dot};
 
-impl Problem<'_> {
+impl PrimalProblem<'_> {
     /// Sweeps, starting from the current forces, until one sweep improves the scaled dual objective by at most
     /// `opt.tolerance` (the documented meaning of this tolerance), or until `opt.iterations` sweeps are done.
     pub(super) fn gauss_seidel(&mut self) {
         let (tolerance, scale) = (self.m.opt.tolerance.max(0.0), self.scale_of_all());
         let price = self.sweep_cost();
-        let mut order = Order(0);
+        let mut order = ShuffledOrder(0);
         let mut momentum = 1.0_f64;
         self.start_sweeps();
         for _ in 0..self.m.opt.iterations.clamp(0, MOST_SWEEPS) {
@@ -107,7 +107,7 @@ impl Problem<'_> {
     }
 
     /// f ← the projection of f - (b + A f + R f) / (A + R) onto its set.
-    fn solve_row(&mut self, b: &Block, group: RowGroup) -> f64 {
+    fn solve_row(&mut self, b: &JacobianBlock, group: RowGroup) -> f64 {
         let row = (b.row + group.first) as usize;
         let (force, r) = (self.d.efc_force[row], self.d.efc_R[row]);
         let [[a]] = self.s.dual.delassus::<1>(b, group);
@@ -121,7 +121,7 @@ impl Problem<'_> {
 
     /// f ← the minimum over all of space, or over an elliptic cone, of ½ fᵀ (A + R) f + cᵀ f, where c is b plus the
     /// effect of the other forces.
-    fn solve_group<const N: usize>(&mut self, b: &Block, group: RowGroup) -> f64 {
+    fn solve_group<const N: usize>(&mut self, b: &JacobianBlock, group: RowGroup) -> f64 {
         let row = b.row as usize;
         let (Some(&force), Some(&r)) =
             (self.d.efc_force[row..].first_chunk::<N>(), self.d.efc_R[row..].first_chunk::<N>())
@@ -149,7 +149,7 @@ impl Problem<'_> {
     }
 
     /// Projects the forces of a block onto their sets.
-    fn move_into_sets(&mut self, b: &Block) {
+    fn move_into_sets(&mut self, b: &JacobianBlock) {
         if b.cost == Cost::Cone {
             if let Some(contact) = self.d.contact.get(self.d.efc_id[b.row as usize] as usize) {
                 nearest_in_cone(&mut self.d.efc_force[b.rows()], &contact.friction);
@@ -162,7 +162,7 @@ impl Problem<'_> {
     }
 
     /// The projection of the force of a row onto its set.
-    fn nearest_in_set(&self, b: &Block, row: usize, force: f64) -> f64 {
+    fn nearest_in_set(&self, b: &JacobianBlock, row: usize, force: f64) -> f64 {
         let loss = self.d.efc_frictionloss[row];
         match b.cost {
             Cost::Quadratic => force,
@@ -174,9 +174,9 @@ impl Problem<'_> {
 
 /// Random orders that are the same in every run: the state of Knuth's linear congruential generator for MMIX (*The
 /// Art of Computer Programming* 2, 3.3.4).
-struct Order(u64);
+struct ShuffledOrder(u64);
 
-impl Order {
+impl ShuffledOrder {
     /// Shuffles the groups; all orders are equally likely (Knuth, 3.4.2, algorithm P).
     fn shuffle(&mut self, groups: &mut [RowGroup]) {
         for last in (1..groups.len()).rev() {
@@ -191,7 +191,7 @@ impl Order {
 #[cfg(test)]
 #[allow(clippy::unwrap_used)] // a failing test prints the reason
 mod tests {
-    use super::{Order, RowGroup};
+    use super::{RowGroup, ShuffledOrder};
     use crate::step::step;
     use crate::step::workspace::Workspace;
     use crate::tests::compile;
@@ -227,7 +227,7 @@ mod tests {
     fn orders_are_permutations_and_differ() {
         let mut groups: Vec<RowGroup> = (0..20).map(|block| RowGroup { block, first: 0 }).collect();
         let start = groups.clone();
-        let mut order = Order(0);
+        let mut order = ShuffledOrder(0);
         let mut seen = std::collections::BTreeSet::new();
         for _ in 0..50 {
             order.shuffle(&mut groups);

@@ -1,13 +1,13 @@
 //! The primal problem of one island, and the parts common to the primal methods: cost, forces and gradient at the
 //! current acceleration, the exact line search, and the loop over search directions.
 
-use super::cost::{Cost, Shape, clamp_unilateral, unilateral_along};
+use super::cost::{Cost, CostParameters, clamp_unilateral, unilateral_along};
 use super::island::Islands;
 use super::iterate::{IslandProgress, Iterate};
-use super::jacobian::{Block, Jacobian};
+use super::jacobian::{ConstraintJacobian, JacobianBlock};
 use super::row_counts::by_rows;
 use super::search::{Point, minimize};
-use crate::dynamics::{Scratch as TreeScratch, mass, tree_algorithms};
+use crate::dynamics::{DynamicsScratch, mass, tree_algorithms};
 use crate::kinds::{disable, solver};
 use crate::math::{MINVAL, combine, dot, dot_slice, sum, zero};
 use crate::model::{Fields, Model};
@@ -25,17 +25,17 @@ pub(super) enum Direction {
 }
 
 /// One island: its trees and constraints.
-pub(super) struct Problem<'a> {
+pub(super) struct PrimalProblem<'a> {
     pub(super) m: &'a Model,
     pub(super) d: &'a mut Fields,
     pub(super) s: &'a mut Iterate,
-    pub(super) trees: &'a mut TreeScratch,
-    pub(super) jac: &'a Jacobian,
+    pub(super) trees: &'a mut DynamicsScratch,
+    pub(super) jac: &'a ConstraintJacobian,
     pub(super) islands: &'a Islands,
     pub(super) island: usize,
 }
 
-impl<'a> Problem<'a> {
+impl<'a> PrimalProblem<'a> {
     /// Computes forces, cost and gradient at the current acceleration. Also tests whether it is already the minimum:
     /// the gradient, and the decrease that M⁻¹ predicts, are both small.
     pub(super) fn evaluate_start(&mut self) -> IslandProgress {
@@ -143,7 +143,7 @@ impl<'a> Problem<'a> {
 
     /// Computes the forces of a block of unilateral rows. Returns its cost.
     #[cfg_attr(not(feature = "small"), inline(always))]
-    fn push_block<const R: usize>(&mut self, b: &Block) -> f64 {
+    fn push_block<const R: usize>(&mut self, b: &JacobianBlock) -> f64 {
         let (d, s) = (&mut *self.d, &*self.s);
         let rows = b.rows();
         let (Some(x), Some(w)) =
@@ -160,7 +160,7 @@ impl<'a> Problem<'a> {
 
     /// Computes the forces of a block of any other kind. Returns its cost.
     #[inline(never)]
-    fn other_block<const R: usize>(&mut self, b: &Block) -> f64 {
+    fn other_block<const R: usize>(&mut self, b: &JacobianBlock) -> f64 {
         let (d, s) = (&mut *self.d, &*self.s);
         let (Some(shape), Some(x)) = (shape::<R>(d, b), s.jar[b.rows()].first_chunk::<R>()) else {
             return 0.0;
@@ -184,9 +184,9 @@ impl<'a> Problem<'a> {
     /// ½ gᵀ M⁻¹ g for a diagonal M.
     fn decrement_by_diagonal(&mut self) -> f64 {
         tree_algorithms::complete(self.m, self.d, self.trees);
-        let of =
+        let decrement =
             |r: Range<usize>| sum([&self.d.qLDiagInv[r.clone()], &self.s.grad[r]], |[inv, g]| inv * g * g);
-        0.5 * self.dofs().map(of).sum::<f64>()
+        0.5 * self.dofs().map(decrement).sum::<f64>()
     }
 
     /// ½ gᵀ step.
@@ -250,7 +250,7 @@ impl<'a> Problem<'a> {
         best
     }
 
-    /// a ← a + α search. Also sets `qfrc_constraint` to zero, for the next [`Problem::update`].
+    /// a ← a + α search. Also sets `qfrc_constraint` to zero, for the next [`PrimalProblem::update`].
     pub(super) fn advance(&mut self, alpha: f64) {
         let (dofs, blocks) = (self.dofs(), self.blocks());
         let (d, s) = (&mut *self.d, &mut *self.s);
@@ -270,16 +270,16 @@ impl<'a> Problem<'a> {
 
 /// The parameters of the cost of a constraint of R rows.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(super) fn shape<'a, const R: usize>(d: &'a Fields, b: &Block) -> Option<Shape<'a, R>> {
+pub(super) fn shape<'a, const R: usize>(d: &'a Fields, b: &JacobianBlock) -> Option<CostParameters<'a, R>> {
     let row = b.row as usize;
     let contact = if b.cost == Cost::Cone { d.contact.get(d.efc_id[row] as usize) } else { None };
     let stiff = d.efc_D[b.rows()].first_chunk::<R>()?;
-    Some(Shape { cost: b.cost, stiff, loss: d.efc_frictionloss[row], contact })
+    Some(CostParameters { cost: b.cost, stiff, loss: d.efc_frictionloss[row], contact })
 }
 
 /// Whether the cost of a block is a single quadratic function along the whole step `search`.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn is_quadratic_along(d: &Fields, s: &Iterate, b: &Block) -> bool {
+fn is_quadratic_along(d: &Fields, s: &Iterate, b: &JacobianBlock) -> bool {
     match b.cost {
         Cost::Quadratic => true,
         Cost::Unilateral => b.rows().all(|r| (s.jar[r] < 0.0) == (s.jar[r] + s.jv[r] < 0.0)),
@@ -289,7 +289,7 @@ fn is_quadratic_along(d: &Fields, s: &Iterate, b: &Block) -> bool {
 
 /// The same test for a constraint that is not unilateral.
 #[inline(never)]
-fn is_quadratic_along_other<const R: usize>(d: &Fields, s: &Iterate, b: &Block) -> bool {
+fn is_quadratic_along_other<const R: usize>(d: &Fields, s: &Iterate, b: &JacobianBlock) -> bool {
     match (shape::<R>(d, b), s.jar[b.rows()].first_chunk(), s.jv[b.rows()].first_chunk()) {
         (Some(shape), Some(x), Some(v)) => shape.is_quadratic_along(x, v),
         _ => false,
@@ -298,7 +298,7 @@ fn is_quadratic_along_other<const R: usize>(d: &Fields, s: &Iterate, b: &Block) 
 
 /// Adds the rows of a unilateral block to a point of the line.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn add_push(p: &mut Point, d: &Fields, s: &Iterate, b: &Block) {
+fn add_push(p: &mut Point, d: &Fields, s: &Iterate, b: &JacobianBlock) {
     for r in b.rows() {
         let [cost, slope, curvature] = unilateral_along(s.jar[r], s.jv[r], p.alpha, d.efc_D[r]);
         p.slope += slope;
@@ -309,7 +309,7 @@ fn add_push(p: &mut Point, d: &Fields, s: &Iterate, b: &Block) {
 
 /// Adds a constraint of any other kind to a point of the line.
 #[inline(never)]
-fn add_other<const R: usize>(p: &mut Point, d: &Fields, s: &Iterate, b: &Block) {
+fn add_other<const R: usize>(p: &mut Point, d: &Fields, s: &Iterate, b: &JacobianBlock) {
     let (Some(x), Some(v)) = (s.jar[b.rows()].first_chunk::<R>(), s.jv[b.rows()].first_chunk::<R>()) else {
         return;
     };

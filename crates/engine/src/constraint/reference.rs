@@ -1,6 +1,6 @@
 //! The reference acceleration of constraints: that of a damped spring acting on the violation.
 
-use super::Scratch;
+use super::ConstraintScratch;
 use super::contact_rows;
 use super::equality_rows;
 use crate::kinds::integrator;
@@ -10,14 +10,14 @@ use crate::model::{Fields, Model};
 
 /// `efc_vel` = J v and `efc_aref` = -B J v - K d r, minus the velocity-dependent acceleration J̇ v.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(crate) fn reference(m: &Model, d: &mut Fields, w: &Scratch) {
+pub(crate) fn reference(m: &Model, d: &mut Fields, w: &ConstraintScratch) {
     if d.nefc > 0 {
         compute_reference(m, d, w);
     }
 }
 
 #[inline(never)]
-fn compute_reference(m: &Model, d: &mut Fields, w: &Scratch) {
+fn compute_reference(m: &Model, d: &mut Fields, w: &ConstraintScratch) {
     w.jac.mul(&d.qvel, &mut d.efc_vel);
     if d.plan.has(PlanFlag::Surfaces) {
         contact_rows::surfaces(m, d);

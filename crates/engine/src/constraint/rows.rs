@@ -29,7 +29,7 @@ pub(super) fn inverse_weight(m: &Model, [b1, b2]: [usize; 2], part: usize) -> f6
 }
 
 /// The R rows of one constraint.
-pub(super) struct Rows<const R: usize> {
+pub(super) struct ConstraintRows<const R: usize> {
     /// `efc_type` and `efc_id`.
     pub(super) kind: i32,
     pub(super) id: usize,
@@ -45,7 +45,7 @@ pub(super) struct Rows<const R: usize> {
 
 /// Appends the scalar quantities of a constraint, after its Jacobian.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(super) fn push<const R: usize>(d: &mut Fields, s: &Rows<R>) {
+pub(super) fn push<const R: usize>(d: &mut Fields, s: &ConstraintRows<R>) {
     append(d, s.kind, s.id, s.loss, [&s.pos, &s.margin, &s.r], [&s.kbi, &s.others]);
 }
 
@@ -69,7 +69,9 @@ fn append(d: &mut Fields, kind: i32, id: usize, loss: f64, [pos, margin, r]: [&[
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn soften(d: &mut Fields, row: usize, imp: f64, r: &[f64]) {
     let rows = row..row + r.len();
-    let put = |to: &mut [f64], of: &dyn Fn(f64) -> f64| to.iter_mut().zip(r).for_each(|(to, r)| *to = of(*r));
+    let put = |to: &mut [f64], function: &dyn Fn(f64) -> f64| {
+        to.iter_mut().zip(r).for_each(|(to, r)| *to = function(*r))
+    };
     put(&mut d.efc_diagA[rows.clone()], &|r| r * imp / (1.0 - imp));
     put(&mut d.efc_R[rows.clone()], &|r| r);
     put(&mut d.efc_D[rows], &|r| 1.0 / r);

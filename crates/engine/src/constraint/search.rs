@@ -119,11 +119,11 @@ mod tests {
             let eval = |alpha: f64| {
                 let mut p = Point { alpha, cost: alpha * b + 0.5 * alpha * alpha, slope: b + alpha, curvature: 1.0 };
                 for &(d, x, v) in &rows {
-                    let (now, then) = (x + alpha * v, x);
+                    let (current, then) = (x + alpha * v, x);
                     p.cost -= if then < 0.0 { 0.5 * d * then * then } else { 0.0 };
-                    if now < 0.0 {
-                        p.cost += 0.5 * d * now * now;
-                        p.slope += d * now * v;
+                    if current < 0.0 {
+                        p.cost += 0.5 * d * current * current;
+                        p.slope += d * current * v;
                         p.curvature += d * v * v;
                     }
                 }

@@ -3,9 +3,9 @@
 use super::cost::Cost;
 use super::equality_rows;
 use super::impedance::{Acts, kbi};
-use super::jacobian::Jacobian;
+use super::jacobian::ConstraintJacobian;
 use super::kind;
-use super::rows::{Rows, push, regularization};
+use super::rows::{ConstraintRows, push, regularization};
 use crate::forces::tendon;
 use crate::kinds::{eqtype, joint};
 use crate::math::*;
@@ -47,7 +47,7 @@ fn near([lower, upper]: [f64; 2], value: f64, margin: f64) -> usize {
 
 /// The scalar quantities of a row: `efc_type`, `efc_id`, violation, margin, and the largest force of dry friction.
 #[derive(Clone, Copy)]
-struct Row {
+struct RowScalars {
     kind: i32,
     id: usize,
     pos: f64,
@@ -56,8 +56,8 @@ struct Row {
 }
 
 /// Appends the scalar quantities of a row, after its Jacobian.
-fn scalars(m: &Model, d: &mut Fields, row: Row, solref: [f64; 2], solimp: [f64; 5], weight: f64) {
-    let Row { kind, id, pos, margin, loss } = row;
+fn scalars(m: &Model, d: &mut Fields, row: RowScalars, solref: [f64; 2], solimp: [f64; 5], weight: f64) {
+    let RowScalars { kind, id, pos, margin, loss } = row;
     let dry = Cost::for_row(kind) == Cost::DryFriction;
     let acts = if dry { Acts::BothWays } else { Acts::OneWay };
     let mut kbi = kbi(m, acts, solref, solimp, pos - margin);
@@ -65,16 +65,16 @@ fn scalars(m: &Model, d: &mut Fields, row: Row, solref: [f64; 2], solimp: [f64; 
         kbi.k = 0.0;
     }
     let r = [regularization(kbi.imp, weight)];
-    push::<1>(d, &Rows { kind, id, pos: [pos], margin: [margin], loss, kbi, others: kbi, r });
+    push::<1>(d, &ConstraintRows { kind, id, pos: [pos], margin: [margin], loss, kbi, others: kbi, r });
 }
 
 /// Creates a row for each degree of freedom and each tendon with dry friction.
-pub(super) fn friction(m: &Model, d: &mut Fields, jac: &mut Jacobian) {
+pub(super) fn friction(m: &Model, d: &mut Fields, jac: &mut ConstraintJacobian) {
     for k in 0..m.nv {
         let loss = m.dof_frictionloss[k];
         if loss > 0.0 && !asleep::body(m, d, m.dof_bodyid[k] as usize) {
             jac.push::<1>(Cost::DryFriction, d.nefc, &[k as u32], [[1.0]].into_iter());
-            let row = Row { kind: kind::FRICTION_DOF, id: k, pos: 0.0, margin: 0.0, loss };
+            let row = RowScalars { kind: kind::FRICTION_DOF, id: k, pos: 0.0, margin: 0.0, loss };
             let (solref, solimp) = (rows::<2>(&m.dof_solref)[k], rows::<5>(&m.dof_solimp)[k]);
             scalars(m, d, row, solref, solimp, m.dof_invweight0[k]);
         }
@@ -82,7 +82,7 @@ pub(super) fn friction(m: &Model, d: &mut Fields, jac: &mut Jacobian) {
     for t in 0..m.ntendon {
         let loss = m.tendon_frictionloss[t];
         if loss > 0.0 && !asleep::tendon(m, d, t) && along_tendon(m, d, jac, Cost::DryFriction, t, 1.0) {
-            let row = Row { kind: kind::FRICTION_TENDON, id: t, pos: 0.0, margin: 0.0, loss };
+            let row = RowScalars { kind: kind::FRICTION_TENDON, id: t, pos: 0.0, margin: 0.0, loss };
             let (solref, solimp) = (rows::<2>(&m.tendon_solref_fri)[t], rows::<5>(&m.tendon_solimp_fri)[t]);
             scalars(m, d, row, solref, solimp, m.tendon_invweight0[t]);
         }
@@ -91,7 +91,7 @@ pub(super) fn friction(m: &Model, d: &mut Fields, jac: &mut Jacobian) {
 
 /// Creates a row for each violated side of a limit, the lower side first, and a single row for the angle of a ball
 /// joint.
-pub(super) fn limits(m: &Model, d: &mut Fields, jac: &mut Jacobian) {
+pub(super) fn limits(m: &Model, d: &mut Fields, jac: &mut ConstraintJacobian) {
     for j in 0..m.njnt {
         if !m.jnt_limited[j] || asleep::body(m, d, m.jnt_bodyid[j] as usize) {
             continue;
@@ -124,7 +124,7 @@ pub(super) fn limits(m: &Model, d: &mut Fields, jac: &mut Jacobian) {
         let margin = m.tendon_margin[t];
         for (pos, sign) in sides(rows::<2>(&m.tendon_range)[t], d.ten_length[t], margin) {
             if along_tendon(m, d, jac, Cost::Unilateral, t, sign) {
-                let row = Row { kind: kind::LIMIT_TENDON, id: t, pos, margin, loss: 0.0 };
+                let row = RowScalars { kind: kind::LIMIT_TENDON, id: t, pos, margin, loss: 0.0 };
                 let (solref, solimp) =
                     (rows::<2>(&m.tendon_solref_lim)[t], rows::<5>(&m.tendon_solimp_lim)[t]);
                 scalars(m, d, row, solref, solimp, m.tendon_invweight0[t]);
@@ -140,18 +140,25 @@ fn sides(range: [f64; 2], value: f64, margin: f64) -> impl Iterator<Item = (f64,
     both.into_iter().map(move |(side, sign)| (sign * (value - side), sign)).filter(move |s| s.0 < margin)
 }
 
-fn joint_limit(m: &Model, d: &mut Fields, jac: &mut Jacobian, j: usize, pos: f64, row: &[f64]) {
+fn joint_limit(m: &Model, d: &mut Fields, jac: &mut ConstraintJacobian, j: usize, pos: f64, row: &[f64]) {
     let dof = m.jnt_dofadr[j] as usize;
     let (n, last) = (row.len(), dof + row.len() - 1);
     let columns: [u32; 3] = std::array::from_fn(|c| last.saturating_sub(c) as u32);
     jac.push::<1>(Cost::Unilateral, d.nefc, &columns[..n], row.iter().rev().map(|&j| [j]));
-    let row = Row { kind: kind::LIMIT_JOINT, id: j, pos, margin: m.jnt_margin[j], loss: 0.0 };
+    let row = RowScalars { kind: kind::LIMIT_JOINT, id: j, pos, margin: m.jnt_margin[j], loss: 0.0 };
     let (solref, solimp) = (rows::<2>(&m.jnt_solref)[j], rows::<5>(&m.jnt_solimp)[j]);
     scalars(m, d, row, solref, solimp, m.dof_invweight0[dof]);
 }
 
 /// Appends the Jacobian of the length of a tendon, times `sign`. Returns `false` if nothing moves the tendon.
-fn along_tendon(m: &Model, d: &Fields, jac: &mut Jacobian, cost: Cost, t: usize, sign: f64) -> bool {
+fn along_tendon(
+    m: &Model,
+    d: &Fields,
+    jac: &mut ConstraintJacobian,
+    cost: Cost,
+    t: usize,
+    sign: f64,
+) -> bool {
     let row = tendon::row(m, t);
     let values = d.ten_J[row.clone()].iter().map(|j| sign * j);
     jac.push_sparse(cost, d.nefc, &m.ten_J_colind[row], values);

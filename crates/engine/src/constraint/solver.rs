@@ -3,14 +3,14 @@
 //! min over a of ½ (a - a₀)ᵀ M (a - a₀) + Σ s(J a - aref), where a₀ is the unconstrained acceleration and s is the
 //! cost of the deviation from the reference acceleration (Todorov 2014).
 
-use super::Scratch;
+use super::ConstraintScratch;
 use super::cost::{Cost, clamp_unilateral};
 use super::island::Islands;
 use super::iterate::{IslandProgress, Iterate};
-use super::jacobian::{Block, Jacobian};
-use super::primal::{Problem, shape};
+use super::jacobian::{ConstraintJacobian, JacobianBlock};
+use super::primal::{PrimalProblem, shape};
 use super::row_counts::by_rows;
-use crate::dynamics::{Scratch as TreeScratch, mass, tree_algorithms};
+use crate::dynamics::{DynamicsScratch, mass, tree_algorithms};
 use crate::kinds::{disable, solver};
 use crate::math::{copy, zero};
 use crate::model::plan::PlanFlag;
@@ -18,7 +18,7 @@ use crate::model::{Fields, Model};
 
 /// Computes `qacc`, `efc_force`, `qfrc_constraint` and `solver_niter` from `qacc_smooth` and the rows.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(crate) fn solve(m: &Model, d: &mut Fields, w: &mut Scratch, trees: &mut TreeScratch) {
+pub(crate) fn solve(m: &Model, d: &mut Fields, w: &mut ConstraintScratch, trees: &mut DynamicsScratch) {
     d.solver_niter = 0;
     d.nisland = 0;
     copy(&d.qacc_smooth, &mut d.qacc);
@@ -29,7 +29,7 @@ pub(crate) fn solve(m: &Model, d: &mut Fields, w: &mut Scratch, trees: &mut Tree
 }
 
 #[inline(never)] // so that steps without constraint rows do not execute its setup code
-fn solve_rows(m: &Model, d: &mut Fields, w: &mut Scratch, trees: &mut TreeScratch) {
+fn solve_rows(m: &Model, d: &mut Fields, w: &mut ConstraintScratch, trees: &mut DynamicsScratch) {
     let [_, columns, values] = w.jac.size();
     d.meter.add(8 * (columns + values) + 40 * d.nefc as u64);
     let dual = m.opt.solver == solver::PGS || m.opt.noslip_iterations > 0;
@@ -40,7 +40,7 @@ fn solve_rows(m: &Model, d: &mut Fields, w: &mut Scratch, trees: &mut TreeScratc
     if d.meter.over() {
         return;
     }
-    let Scratch { jac, islands, solver: s, .. } = w;
+    let ConstraintScratch { jac, islands, solver: s, .. } = w;
     d.nisland = islands.find(m, jac);
     s.resize(m.nv, d.nefc);
     if dual {
@@ -55,7 +55,7 @@ fn solve_rows(m: &Model, d: &mut Fields, w: &mut Scratch, trees: &mut TreeScratc
     }
     if dual {
         for island in 0..d.nisland {
-            let mut problem = Problem { m, d, s, trees, islands, jac, island };
+            let mut problem = PrimalProblem { m, d, s, trees, islands, jac, island };
             if m.opt.solver == solver::PGS {
                 problem.gauss_seidel();
             }
@@ -76,9 +76,9 @@ fn primal(
     m: &Model,
     d: &mut Fields,
     s: &mut Iterate,
-    trees: &mut TreeScratch,
+    trees: &mut DynamicsScratch,
     islands: &Islands,
-    jac: &Jacobian,
+    jac: &ConstraintJacobian,
 ) {
     if !m.opt.disabled(disable::WARMSTART) && warm_start(m, d, s, trees, islands, jac) {
         return;
@@ -88,7 +88,7 @@ fn primal(
     copy(&d.qfrc_smooth, &mut s.ma);
     jac.residual(&d.qacc_smooth, &d.efc_aref, &mut s.jar);
     for island in 0..d.nisland {
-        let mut problem = Problem { m, d, s, trees, islands, jac, island };
+        let mut problem = PrimalProblem { m, d, s, trees, islands, jac, island };
         let from = problem.evaluate_start();
         problem.run(from);
     }
@@ -100,9 +100,9 @@ fn dual_start(
     m: &Model,
     d: &mut Fields,
     s: &mut Iterate,
-    trees: &mut TreeScratch,
+    trees: &mut DynamicsScratch,
     islands: &Islands,
-    jac: &Jacobian,
+    jac: &ConstraintJacobian,
 ) {
     d.efc_force.fill(0.0);
     if m.opt.disabled(disable::WARMSTART) {
@@ -111,7 +111,7 @@ fn dual_start(
     jac.residual(&d.qacc_warmstart, &d.efc_aref, &mut s.jar);
     let mut cost = 0.0;
     for island in 0..d.nisland {
-        let mut problem = Problem { m, d, s, trees, islands, jac, island };
+        let mut problem = PrimalProblem { m, d, s, trees, islands, jac, island };
         problem.update();
         cost += problem.dual_cost();
     }
@@ -121,18 +121,18 @@ fn dual_start(
 }
 
 /// Computes `efc_force` and `qfrc_constraint` for the acceleration `qacc` (`mj_invConstraint`).
-pub(crate) fn inverse(m: &Model, d: &mut Fields, w: &mut Scratch, trees: &mut TreeScratch) {
+pub(crate) fn inverse(m: &Model, d: &mut Fields, w: &mut ConstraintScratch, trees: &mut DynamicsScratch) {
     d.qfrc_constraint.fill(0.0);
     if d.nefc == 0 {
         return;
     }
-    let Scratch { jac, islands, solver: s, .. } = w;
+    let ConstraintScratch { jac, islands, solver: s, .. } = w;
     d.nisland = islands.find(m, jac);
     s.resize(m.nv, d.nefc);
     s.ma.fill(0.0);
     jac.residual(&d.qacc, &d.efc_aref, &mut s.jar);
     for island in 0..d.nisland {
-        Problem { m, d, s, trees, islands, jac, island }.update();
+        PrimalProblem { m, d, s, trees, islands, jac, island }.update();
     }
 }
 
@@ -146,9 +146,9 @@ fn warm_start(
     m: &Model,
     d: &mut Fields,
     s: &mut Iterate,
-    trees: &mut TreeScratch,
+    trees: &mut DynamicsScratch,
     islands: &Islands,
-    jac: &Jacobian,
+    jac: &ConstraintJacobian,
 ) -> bool {
     jac.residual(&d.qacc_warmstart, &d.efc_aref, &mut s.jar);
     for tree in 0..m.ntree {
@@ -160,21 +160,22 @@ fn warm_start(
         for dofs in islands.dofs(island) {
             copy(&d.qacc_warmstart[dofs.clone()], &mut d.qacc[dofs]);
         }
-        progress.push(Problem { m, d, s, trees, islands, jac, island }.evaluate_start());
+        progress.push(PrimalProblem { m, d, s, trees, islands, jac, island }.evaluate_start());
     }
     let mut done = progress.iter().all(|r| r.minimum);
     if !done {
         // The Gauss cost of the unconstrained acceleration is zero. That of the last acceleration includes the trees
         // outside of islands.
         let gauss = |k: usize| 0.5 * (s.ma[k] - d.qfrc_smooth[k]) * (d.qacc_warmstart[k] - d.qacc_smooth[k]);
-        let apart = (0..m.ntree).filter(|&tree| !islands.has(tree)).flat_map(|tree| m.tree_dofs(tree));
-        let warm = progress.iter().map(|r| r.cost).sum::<f64>() + apart.map(gauss).sum::<f64>();
+        let unconstrained =
+            (0..m.ntree).filter(|&tree| !islands.has(tree)).flat_map(|tree| m.tree_dofs(tree));
+        let warm = progress.iter().map(|r| r.cost).sum::<f64>() + unconstrained.map(gauss).sum::<f64>();
         // If all costs are quadratic, Newton's first step reaches the minimum from any starting point.
         let quadratic =
             || m.opt.solver == solver::NEWTON && jac.blocks.iter().all(|b| b.cost == Cost::Quadratic);
         if quadratic() || !costs_less(d, jac, s, warm) {
             for (island, &from) in progress.iter().enumerate() {
-                Problem { m, d, s, trees, islands, jac, island }.run(from);
+                PrimalProblem { m, d, s, trees, islands, jac, island }.run(from);
             }
             done = true;
         }
@@ -185,7 +186,7 @@ fn warm_start(
 
 /// Whether the unconstrained acceleration has a cost lower than `most`. Costs are not negative, so the summation
 /// stops as soon as it reaches `most`.
-fn costs_less(d: &Fields, jac: &Jacobian, s: &mut Iterate, most: f64) -> bool {
+fn costs_less(d: &Fields, jac: &ConstraintJacobian, s: &mut Iterate, most: f64) -> bool {
     let cost_of = |x: f64, w: f64| 0.5 * w * clamp_unilateral(x) * clamp_unilateral(x);
     let mut cost = 0.0;
     for b in &jac.blocks {
@@ -205,7 +206,7 @@ fn costs_less(d: &Fields, jac: &Jacobian, s: &mut Iterate, most: f64) -> bool {
     cost < most || most.is_nan() || cost.is_nan()
 }
 
-fn block_cost<const R: usize>(d: &Fields, b: &Block, x: &[f64]) -> f64 {
+fn block_cost<const R: usize>(d: &Fields, b: &JacobianBlock, x: &[f64]) -> f64 {
     match (shape::<R>(d, b), x[b.rows()].first_chunk::<R>()) {
         (Some(shape), Some(x)) => shape.value(x).0,
         _ => 0.0,
@@ -213,12 +214,12 @@ fn block_cost<const R: usize>(d: &Fields, b: &Block, x: &[f64]) -> f64 {
 }
 
 /// `efc_b`.
-pub(crate) fn unconstrained_residual(d: &mut Fields, jac: &Jacobian) {
+pub(crate) fn unconstrained_residual(d: &mut Fields, jac: &ConstraintJacobian) {
     jac.residual(&d.qacc_smooth, &d.efc_aref, &mut d.efc_b);
 }
 
 /// Computes `efc_b` and `efc_state`, if they are read.
-fn details(d: &mut Fields, jac: &Jacobian, jar: &[f64]) {
+fn details(d: &mut Fields, jac: &ConstraintJacobian, jar: &[f64]) {
     unconstrained_residual(d, jac);
     for i in 0..jac.blocks.len() {
         let b = jac.blocks[i];
@@ -226,14 +227,14 @@ fn details(d: &mut Fields, jac: &Jacobian, jar: &[f64]) {
     }
 }
 
-fn block_state<const R: usize>(d: &mut Fields, b: &Block, jar: &[f64]) {
+fn block_state<const R: usize>(d: &mut Fields, b: &JacobianBlock, jar: &[f64]) {
     if let (Some(shape), Some(x)) = (shape::<R>(d, b), jar[b.rows()].first_chunk::<R>()) {
         let state = shape.state(x);
         d.efc_state[b.rows()].copy_from_slice(&state);
     }
 }
 
-impl Problem<'_> {
+impl PrimalProblem<'_> {
     /// Solves the problem from a starting point, with the method that the model selects.
     #[cfg_attr(not(feature = "small"), inline(always))]
     fn run(&mut self, from: IslandProgress) {

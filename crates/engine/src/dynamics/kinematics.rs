@@ -37,22 +37,22 @@ pub(crate) fn world(d: &mut Fields) {
 /// Parameters of bodies and joints, copied from the model in the order of use.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Frames {
-    bodies: Vec<Frame>,
-    joints: Vec<Joint>,
+    bodies: Vec<BodyParameters>,
+    joints: Vec<JointParameters>,
     /// Poses of bodies, read by their children.
-    poses: Vec<Pose>,
+    poses: Vec<BodyPose>,
 }
 
 /// The origin and the axes of a body, world frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Pose {
+struct BodyPose {
     at: Lane3,
     axes: Axes,
 }
 
 /// Parameters of a body.
 #[derive(Clone, Debug, Default, PartialEq)]
-struct Frame {
+struct BodyParameters {
     parent: usize,
     joints: Range<usize>,
     free: bool,
@@ -71,7 +71,7 @@ struct Frame {
 
 /// Parameters of a joint, and the angle of a hinge.
 #[derive(Clone, Debug, Default, PartialEq)]
-struct Joint {
+struct JointParameters {
     kind: i32,
     /// Index of its first coordinate in `qpos`.
     coordinate: usize,
@@ -101,20 +101,20 @@ impl Frames {
     pub(crate) fn new(m: &Model) -> Frames {
         let body = |i: usize| {
             let joints = element_range(m.body_jntadr[i], m.body_jntnum[i]);
-            Frame {
+            BodyParameters {
                 parent: m.body_parentid[i] as usize,
                 free: joints.len() == 1 && m.jnt_type[joints.start] == joint::FREE,
                 joints,
                 mocap: usize::try_from(m.body_mocapid[i]).ok(),
-                ..Frame::default()
+                ..BodyParameters::default()
             }
         };
-        let joint = |j: usize| Joint {
+        let joint = |j: usize| JointParameters {
             kind: m.jnt_type[j],
             coordinate: m.jnt_qposadr[j] as usize,
-            ..Joint::default()
+            ..JointParameters::default()
         };
-        let world = Pose { at: lane3([0.0; 3]), axes: axes(&EYE) };
+        let world = BodyPose { at: lane3([0.0; 3]), axes: axes(&EYE) };
         let mut frames = Frames {
             bodies: (0..m.nbody).map(body).collect(),
             joints: (0..m.njnt).map(joint).collect(),
@@ -158,16 +158,16 @@ pub(crate) fn bodies(d: &mut Fields, frames: &mut Frames) {
         if f.free {
             let (j, q) = (f.joints.start, joints[f.joints.start].coordinate);
             let at = [qpos[q], qpos[q + 1], qpos[q + 2]];
-            here = Pose { at: lane3(at), axes: axes(&quat_to_mat(quaternion(&qpos[q + 3..]))) };
+            here = BodyPose { at: lane3(at), axes: axes(&quat_to_mat(quaternion(&qpos[q + 3..]))) };
             (xanchor[j], xaxis[j]) = (at, joints[j].axis);
         } else {
             let above = &poses[f.parent];
             here = match f.mocap {
-                Some(id) => Pose {
+                Some(id) => BodyPose {
                     at: above.at + along(&above.axes, mocap_pos[id]),
                     axes: product(&above.axes, &columns(quat_normalize(mocap_quat[id]))),
                 },
-                None => Pose {
+                None => BodyPose {
                     at: above.at + along(&above.axes, f.at),
                     axes: if f.straight { above.axes } else { product(&above.axes, &f.axes) },
                 },

@@ -4,7 +4,7 @@
 //! ½ Σ (m |v|² + Σ_k I_k ω_k²) with the components ω_k along the principal axes (König's theorem). It needs neither spatial inertias
 //! nor the mass matrix.
 
-use super::Scratch;
+use super::DynamicsScratch;
 use crate::kinds::joint;
 use crate::math::*;
 use crate::model::index::element_range;
@@ -12,7 +12,7 @@ use crate::model::{Fields, Model};
 
 /// The motion of a body, world frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Motion {
+pub(crate) struct BodyMotion {
     /// Angular velocity, rad/s.
     angular: Vec3,
     /// Velocity of the centre of mass, m/s.
@@ -20,7 +20,7 @@ pub(crate) struct Motion {
 }
 
 /// The kinetic energy of all bodies whose inertia follows their pose, J. The inertia of simple bodies is constant in M.
-pub(crate) fn of_bodies(m: &Model, d: &Fields, w: &mut Scratch) -> f64 {
+pub(crate) fn of_bodies(m: &Model, d: &Fields, w: &mut DynamicsScratch) -> f64 {
     let (moments, ximat) = (rows::<3>(&m.body_inertia), rows::<9>(&d.ximat));
     let mut twice = 0.0;
     for i in 1..m.nbody {
@@ -37,7 +37,7 @@ pub(crate) fn of_bodies(m: &Model, d: &Fields, w: &mut Scratch) -> f64 {
 
 /// The motion of a body, from that of its parent and the velocities of its joints.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn of_body(m: &Model, d: &Fields, i: usize, parent: &Motion) -> Motion {
+fn of_body(m: &Model, d: &Fields, i: usize, parent: &BodyMotion) -> BodyMotion {
     let xipos = rows::<3>(&d.xipos);
     let (xanchor, xaxis) = (rows::<3>(&d.xanchor), rows::<3>(&d.xaxis));
     let centre = xipos[i];

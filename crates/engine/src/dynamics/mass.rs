@@ -15,7 +15,7 @@ use std::ops::Range;
 use wide::f64x4;
 
 /// Computes `crb` of all bodies, and the rows of `M` for the given degrees of freedom (ascending, whole trees).
-pub fn composite_inertia(m: &Model, d: &mut Fields, path: &mut Path, of: &[Range<usize>]) {
+pub fn composite_inertia(m: &Model, d: &mut Fields, path: &mut Path, dofs: &[Range<usize>]) {
     d.crb.copy_from_slice(&d.cinert);
     let crb = rows_mut::<10>(&mut d.crb);
     for i in (1..m.nbody).rev() {
@@ -25,7 +25,7 @@ pub fn composite_inertia(m: &Model, d: &mut Fields, path: &mut Path, of: &[Range
         }
     }
     let cdof = rows::<6>(&d.cdof);
-    for i in of.iter().cloned().flatten() {
+    for i in dofs.iter().cloned().flatten() {
         let row = &mut d.M[row(m, i)];
         let depth = row.len() - 1;
         // Momentum of the subtree for a unit velocity of this degree of freedom.
@@ -373,16 +373,16 @@ pub fn mul(m: &Model, mass: &[f64], v: &[f64], out: &mut [f64], dofs: Range<usiz
         }
         let mut sums = f64x4::ZERO;
         for (a, j) in fours.iter().zip(by_four) {
-            let (a, of) = (f64x4::new(*a), j.map(|j| j as usize));
-            let together = (!SMALL && j[3] - j[0] == 3).then_some(of[0]);
+            let (a, columns) = (f64x4::new(*a), j.map(|j| j as usize));
+            let together = (!SMALL && j[3] - j[0] == 3).then_some(columns[0]);
             match together.and_then(|j| Some((v[j..].first_chunk()?, out[j..].first_chunk_mut()?))) {
                 Some((v, out)) => {
                     sums += a * f64x4::new(*v);
                     *out = (f64x4::new(*out) + a * vi).to_array();
                 }
                 None => {
-                    sums += a * f64x4::new(of.map(|j| v[j]));
-                    for (j, x) in of.into_iter().zip((a * vi).to_array()) {
+                    sums += a * f64x4::new(columns.map(|j| v[j]));
+                    for (j, x) in columns.into_iter().zip((a * vi).to_array()) {
                         out[j] += x;
                     }
                 }

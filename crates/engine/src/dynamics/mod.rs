@@ -28,35 +28,35 @@ use tree_algorithms::AlgorithmStates;
 
 /// Scratch memory of the stages, allocated once.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Scratch {
+pub struct DynamicsScratch {
     /// State of each tree algorithm.
     algorithms: AlgorithmStates,
     /// Whether `qLD` and `qLDiagInv` still have to be computed from the result of another factorization.
     rows_due: bool,
     /// Whether the rows of M are read in this pass.
-    rows_wanted: bool,
+    needs_mass_rows: bool,
     /// Motion axes of ancestors, for rows of M.
     pub path: Path,
     /// Spatial accelerations and forces of bodies.
     cacc: Vec<f64>,
     cfrc: Vec<f64>,
     /// Motions of bodies, for their kinetic energy.
-    motions: Vec<kinetic::Motion>,
+    motions: Vec<kinetic::BodyMotion>,
     /// A temporary factorization: rows and 1/D.
     pub(crate) ld: Vec<f64>,
     pub(crate) diag_inv: Vec<f64>,
 }
 
-impl Scratch {
-    pub(crate) fn new(m: &Model, algorithms: TreeAlgorithms) -> Scratch {
-        Scratch {
+impl DynamicsScratch {
+    pub(crate) fn new(m: &Model, algorithms: TreeAlgorithms) -> DynamicsScratch {
+        DynamicsScratch {
             algorithms: AlgorithmStates::new(m, algorithms),
             rows_due: false,
-            rows_wanted: true,
+            needs_mass_rows: true,
             path: Path::new(m),
             cacc: vec![0.0; 6 * m.nbody],
             cfrc: vec![0.0; 6 * m.nbody],
-            motions: vec![kinetic::Motion::default(); m.nbody],
+            motions: vec![kinetic::BodyMotion::default(); m.nbody],
             ld: vec![0.0; m.nC],
             diag_inv: vec![0.0; m.nv],
         }
@@ -64,7 +64,7 @@ impl Scratch {
 }
 
 /// Poses of bodies, joints, geoms and sites, as `mj_kinematics` computes them.
-pub fn kinematics(m: &Model, d: &mut Fields, w: &mut Scratch) {
+pub fn kinematics(m: &Model, d: &mut Fields, w: &mut DynamicsScratch) {
     tree_algorithms::forward_kinematics(m, d, w);
     tree_algorithms::orientations(d, w);
     kinematics::geoms(m, d);

@@ -8,14 +8,14 @@ use crate::model::{Fields, Model, Obj};
 
 /// Position and orientation (world frame) and body of an object.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Frame {
+pub(crate) struct ObjectFrame {
     pub(crate) pos: Vec3,
     pub(crate) mat: Mat3,
     pub(crate) body: usize,
 }
 
 /// The frame of an object of type `objtype` (mjtObj). Returns `None` if the object does not exist or has no frame.
-pub(crate) fn frame(m: &Model, d: &Fields, objtype: i32, id: usize) -> Option<Frame> {
+pub(crate) fn frame(m: &Model, d: &Fields, objtype: i32, id: usize) -> Option<ObjectFrame> {
     let (pos, mat, body) = match objtype {
         t if t == Obj::Body as i32 => (&d.xipos, &d.ximat, Some(id)),
         t if t == Obj::XBody as i32 => (&d.xpos, &d.xmat, Some(id)),
@@ -24,7 +24,7 @@ pub(crate) fn frame(m: &Model, d: &Fields, objtype: i32, id: usize) -> Option<Fr
         t if t == Obj::Camera as i32 => (&d.cam_xpos, &d.cam_xmat, at(&m.cam_bodyid, id)),
         _ => return None,
     };
-    Some(Frame { pos: *rows(pos).get(id)?, mat: *rows(mat).get(id)?, body: body? })
+    Some(ObjectFrame { pos: *rows(pos).get(id)?, mat: *rows(mat).get(id)?, body: body? })
 }
 
 fn at(bodies: &[i32], id: usize) -> Option<usize> {
@@ -61,12 +61,12 @@ pub fn object_acceleration(m: &Model, d: &Fields, kind: Obj, id: usize, local: b
     acceleration(m, d, &f, local)
 }
 
-pub(crate) fn velocity(m: &Model, d: &Fields, f: &Frame, local: bool) -> Spatial {
+pub(crate) fn velocity(m: &Model, d: &Fields, f: &ObjectFrame, local: bool) -> Spatial {
     let v = shifted_motion(m, d, f, &rows::<6>(&d.cvel)[f.body]);
     if local { rotated_spatial(&f.mat, &v) } else { v }
 }
 
-pub(crate) fn acceleration(m: &Model, d: &Fields, f: &Frame, local: bool) -> Spatial {
+pub(crate) fn acceleration(m: &Model, d: &Fields, f: &ObjectFrame, local: bool) -> Spatial {
     if m.body_treeid[f.body] < 0 {
         return [0.0; 6];
     }
@@ -82,7 +82,7 @@ pub(crate) fn acceleration(m: &Model, d: &Fields, f: &Frame, local: bool) -> Spa
 }
 
 /// Transforms a motion of the body of `f`, given about the centre of mass of its tree, to the position of `f`.
-fn shifted_motion(m: &Model, d: &Fields, f: &Frame, motion: &Spatial) -> Spatial {
+fn shifted_motion(m: &Model, d: &Fields, f: &ObjectFrame, motion: &Spatial) -> Spatial {
     let com = rows::<3>(&d.subtree_com)[m.body_rootid[f.body] as usize];
     let w = angular(motion);
     let l = add(linear(motion), cross(w, sub(f.pos, com)));

@@ -64,9 +64,9 @@ pub(crate) fn damping(m: &Model, on: On) -> [f64; 3] {
     let mut sum = [0.0; 3];
     for i in actuators(m, on) {
         if acts(m, i, on) {
-            let of =
+            let coefficients =
                 [m.actuator_damping[i], m.actuator_dampingpoly[2 * i], m.actuator_dampingpoly[2 * i + 1]];
-            sum = crate::math::add_scaled(sum, of, square(m, i));
+            sum = crate::math::add_scaled(sum, coefficients, square(m, i));
         }
     }
     sum

@@ -1,6 +1,6 @@
 //! `qfrc_bias`: gravity, Coriolis and centrifugal forces.
 
-use crate::dynamics::Scratch;
+use crate::dynamics::DynamicsScratch;
 use crate::kinds::disable;
 use crate::math::{lanes, *};
 use crate::model::index::element_range;
@@ -8,7 +8,7 @@ use crate::model::{Fields, Model};
 
 /// `qfrc_bias` of all bodies.
 #[inline(never)]
-pub(crate) fn newton_euler(m: &Model, d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
+pub(crate) fn newton_euler(m: &Model, d: &mut Fields, w: &mut DynamicsScratch, gravity: Vec3) {
     let mut out = std::mem::take(&mut d.qfrc_bias);
     recursion(m, d, w, gravity, None, &mut out);
     d.qfrc_bias = out;
@@ -19,7 +19,13 @@ pub(crate) fn newton_euler(m: &Model, d: &mut Fields, w: &mut Scratch, gravity: 
 /// included. Returns `None` if an array is too short.
 ///
 /// Requires the position and velocity stages of a full pipeline.
-pub fn rne(m: &Model, d: &mut Fields, w: &mut Scratch, qacc: Option<&[f64]>, out: &mut [f64]) -> Option<()> {
+pub fn rne(
+    m: &Model,
+    d: &mut Fields,
+    w: &mut DynamicsScratch,
+    qacc: Option<&[f64]>,
+    out: &mut [f64],
+) -> Option<()> {
     if out.len() < m.nv || qacc.is_some_and(|a| a.len() < m.nv) {
         return None;
     }
@@ -33,7 +39,7 @@ pub fn rne(m: &Model, d: &mut Fields, w: &mut Scratch, qacc: Option<&[f64]>, out
 fn recursion(
     m: &Model,
     d: &mut Fields,
-    w: &mut Scratch,
+    w: &mut DynamicsScratch,
     gravity: Vec3,
     qacc: Option<&[f64]>,
     out: &mut [f64],

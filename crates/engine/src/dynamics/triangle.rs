@@ -103,13 +103,13 @@ fn less_part<const N: usize>(s: f64, row: &[f64], x: &[f64]) -> f64 {
 
 /// The N numbers starting at index `at`.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(super) fn part<const N: usize>(of: &[f64], at: usize) -> Option<&[f64; N]> {
-    of.get(at..)?.first_chunk()
+pub(super) fn part<const N: usize>(numbers: &[f64], at: usize) -> Option<&[f64; N]> {
+    numbers.get(at..)?.first_chunk()
 }
 
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(super) fn part_mut<const N: usize>(of: &mut [f64], at: usize) -> Option<&mut [f64; N]> {
-    of.get_mut(at..)?.first_chunk_mut()
+pub(super) fn part_mut<const N: usize>(numbers: &mut [f64], at: usize) -> Option<&mut [f64; N]> {
+    numbers.get_mut(at..)?.first_chunk_mut()
 }
 
 /// Factorizes a packed triangle of N rows and T numbers in place.

@@ -156,13 +156,13 @@ mod tests {
             (&[5.0, -7.0], [0.0, 5.0, -7.0, -0.3, -0.2, -0.1]),
             (&[1.0, 2.0, 3.0, 4.0, 5.0, 4.5, 3.5], [4.0, 3.0, 3.5, 4.0, 4.5, 5.0]),
         ];
-        for (times, want) in cases {
+        for (times, expected) in cases {
             let mut buf = buffer();
             for &t in times {
                 insert(&mut buf, N, 1, t)[0] = t;
             }
             let got = &buf[1..7];
-            assert!(got.iter().zip(want).all(|(a, b)| (a - b).abs() < 1e-12), "{times:?}: {got:?}");
+            assert!(got.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12), "{times:?}: {got:?}");
             for i in 0..N {
                 assert!(buf[7 + i] == 0.0 || buf[7 + i] == buf[2 + i]);
             }
@@ -173,7 +173,7 @@ mod tests {
     #[test]
     fn values_between_samples() {
         let buf = [0.0, 4.0, 0.0, 1.0, 2.0, 4.0, 5.0, 1.0, 3.0, 2.0, 7.0, 5.0];
-        for (time, want) in [
+        for (time, expected) in [
             (-1.0, [1.0, 1.0, 1.0]),
             (0.25, [1.0, 1.5, 1.2890625]),
             (0.5, [1.0, 2.0, 1.9375]),
@@ -183,10 +183,10 @@ mod tests {
             (4.5, [7.0, 6.0, 6.125]),
             (6.0, [5.0, 5.0, 5.0]),
         ] {
-            for (interp, want) in want.into_iter().enumerate() {
+            for (interp, expected) in expected.into_iter().enumerate() {
                 let mut x = [0.0];
                 read(&buf, N, 1, time, interp as i32, &mut x);
-                assert!((x[0] - want).abs() < 1e-14, "{time} {interp}: {} instead of {want}", x[0]);
+                assert!((x[0] - expected).abs() < 1e-14, "{time} {interp}: {} instead of {expected}", x[0]);
             }
         }
     }

@@ -17,7 +17,7 @@ use crate::model::Model;
 
 /// The memory of these stages, reused so that they do not allocate.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Scratch {
+pub struct ForceScratch {
     /// The sum of the actuator forces on each tendon.
     tendon_force: Vec<f64>,
     /// A row of the actuator moments.
@@ -26,10 +26,10 @@ pub struct Scratch {
     columns: Columns,
 }
 
-impl Scratch {
-    pub(crate) fn new(m: &Model) -> Scratch {
+impl ForceScratch {
+    pub(crate) fn new(m: &Model) -> ForceScratch {
         let contacts = m.actuator_trntype.contains(&crate::kinds::trntype::BODY);
-        Scratch {
+        ForceScratch {
             tendon_force: vec![0.0; m.ntendon],
             moment: vec![0.0; m.nv],
             columns: Columns::with_room(if contacts { m.nv } else { 0 }),

@@ -8,12 +8,12 @@ use super::difference::Limits;
 use super::epa;
 use super::gjk::{GjkResult, distance};
 use super::polish::{Reach, minimize_reach};
-use super::support::Body;
+use super::support::ConvexBody;
 use crate::math::*;
 
 pub(crate) use super::difference::Limits as Effort;
 pub(crate) use super::epa::ConvexScratch;
-pub(crate) use super::support::Body as Convex;
+pub(crate) use super::support::ConvexBody as Convex;
 
 /// Where two bodies are nearest, or where they overlap most.
 #[derive(Clone, Copy, Debug)]
@@ -32,8 +32,8 @@ const STEP: u64 = 60;
 /// Signed distance up to `cutoff`. Returns `None` if the distance is larger, or if the direction between the bodies
 /// is undefined.
 pub(crate) fn nearest(
-    a: &mut Body,
-    b: &mut Body,
+    a: &mut ConvexBody,
+    b: &mut ConvexBody,
     cutoff: f64,
     limits: Limits,
     scratch: &mut ConvexScratch,
@@ -53,8 +53,8 @@ pub(crate) fn nearest(
 /// Signed distance of the cores, without radii. If both bodies are polyhedra, the searches are exact. Results for
 /// round bodies are refined from the tolerance to rounding accuracy.
 fn nearest_of_cores(
-    a: &mut Body,
-    b: &mut Body,
+    a: &mut ConvexBody,
+    b: &mut ConvexBody,
     cutoff: f64,
     limits: Limits,
     scratch: &mut ConvexScratch,
@@ -67,8 +67,8 @@ fn nearest_of_cores(
 
 /// The search for the nearest points of the cores. The bodies count the cost of their support points.
 fn search(
-    a: &mut Body,
-    b: &mut Body,
+    a: &mut ConvexBody,
+    b: &mut ConvexBody,
     cutoff: f64,
     limits: Limits,
     scratch: &mut ConvexScratch,

@@ -2,10 +2,10 @@
 //! origin from its boundary is the separation or the penetration depth. Only support points of the difference are
 //! computed.
 
-use super::support::Body;
+use super::support::ConvexBody;
 use crate::math::*;
 
-/// A point of the Minkowski difference and the two points that it comes from.
+/// A point of the Minkowski difference, and the two points of which it is the difference.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Vertex {
     pub(super) on_a: Vec3,
@@ -17,7 +17,7 @@ pub(super) struct Vertex {
 }
 
 /// The support point of the difference in the direction of a unit vector.
-pub(super) fn support(a: &mut Body, b: &mut Body, dir: Vec3) -> Vertex {
+pub(super) fn support(a: &mut ConvexBody, b: &mut ConvexBody, dir: Vec3) -> Vertex {
     let (on_a, on_b) = (a.support(dir), b.support(scale(dir, -1.0)));
     Vertex { on_a, on_b, point: sub(on_a, on_b), corners: [a.corner, b.corner] }
 }

@@ -11,7 +11,7 @@
 use super::difference::{Limits, ROUNDING, Vertex, support};
 use super::polish::{Reach, minimize_reach};
 use super::simplex::{Corral, barycentric};
-use super::support::Body;
+use super::support::ConvexBody;
 use crate::math::*;
 
 /// A triangle is degenerate if the sine of the angle between two edges is smaller than this; a flatter solid has no
@@ -23,7 +23,7 @@ const SAME_SIDE: f64 = 1e-9;
 
 /// A plane: unit normal and signed offset from the origin, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Plane {
+struct FacePlane {
     normal: Vec3,
     offset: f64,
 }
@@ -31,8 +31,8 @@ struct Plane {
 /// A triangle of the polytope. Its three half-edges run counterclockwise as seen from outside; half-edge k of face f is
 /// number 4 f + k.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Face {
-    plane: Plane,
+struct PolytopeFace {
+    plane: FacePlane,
     /// Start vertex of each half-edge.
     from: [u32; 3],
     /// The half-edge of the neighbouring face in the opposite direction.
@@ -45,7 +45,7 @@ struct Face {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct ConvexScratch {
     vertices: Vec<Vertex>,
-    faces: Vec<Face>,
+    faces: Vec<PolytopeFace>,
     /// Candidates for the face with the lowest bound.
     low: Vec<u32>,
     /// For each vertex, the new face whose outer edge starts there.
@@ -74,8 +74,8 @@ fn place(edge: u32) -> (usize, usize) {
 /// `None` if the difference has no volume.
 pub(super) fn depth(
     corral: &Corral,
-    a: &mut Body,
-    b: &mut Body,
+    a: &mut ConvexBody,
+    b: &mut ConvexBody,
     limits: Limits,
     p: &mut ConvexScratch,
 ) -> Option<Reach> {
@@ -120,7 +120,7 @@ impl ConvexScratch {
 
     /// Adds support points until four vertices span a tetrahedron. Returns the largest distance of a vertex from the
     /// origin; `None` if the difference has no volume.
-    fn span_space(&mut self, a: &mut Body, b: &mut Body) -> Option<f64> {
+    fn span_space(&mut self, a: &mut ConvexBody, b: &mut ConvexBody) -> Option<f64> {
         let mut size = self.vertices.iter().fold(0.0_f64, |s, v| s.max(norm(v.point)));
         while !self.spans() {
             self.vertices.pop();
@@ -187,48 +187,49 @@ impl ConvexScratch {
             ([2, 3, 0], [9, 4, 2]),
         ];
         for (from, twin) in faces {
-            let plane = self.plane(from).unwrap_or(Plane { normal: [0.0; 3], offset: f64::INFINITY });
-            self.add(Face { plane, from, twin, is_on_surface: true });
+            let plane = self.plane(from).unwrap_or(FacePlane { normal: [0.0; 3], offset: f64::INFINITY });
+            self.add(PolytopeFace { plane, from, twin, is_on_surface: true });
         }
     }
 
-    fn add(&mut self, face: Face) {
+    fn add(&mut self, face: PolytopeFace) {
         self.low.push(self.faces.len() as u32);
         self.faces.push(face);
     }
 
     /// The plane of a triangle; `None` if the triangle is degenerate.
-    fn plane(&self, vertices: [u32; 3]) -> Option<Plane> {
+    fn plane(&self, vertices: [u32; 3]) -> Option<FacePlane> {
         let [a, b, c] = vertices.map(|v| self.point(v));
         let (u, v) = (sub(b, a), sub(c, a));
         let normal = cross(u, v);
         let area2 = dot(normal, normal);
         let normal = scale(normal, 1.0 / area2.sqrt());
-        (area2 > SLIVER * SLIVER * dot(u, u) * dot(v, v)).then(|| Plane { normal, offset: dot(normal, a) })
+        (area2 > SLIVER * SLIVER * dot(u, u) * dot(v, v))
+            .then(|| FacePlane { normal, offset: dot(normal, a) })
     }
 
     /// Expands the polytope until the lowest lower and upper bound differ by at most `tolerance`. Returns the face
     /// and the plane of the lowest upper bound, `None` if no bound is below `upper`.
     fn expand(
         &mut self,
-        a: &mut Body,
-        b: &mut Body,
+        a: &mut ConvexBody,
+        b: &mut ConvexBody,
         [rounding, tolerance]: [f64; 2],
         mut upper: f64,
         left: &mut usize,
-    ) -> Option<(u32, Plane)> {
+    ) -> Option<(u32, FacePlane)> {
         let corners = a.discrete() && b.discrete();
         let mut best = None;
         while *left > 0 {
             *left -= 1;
             self.cost += 200 + self.low.len() as u64;
             let Some(face) = self.lowest(upper) else { break };
-            let Plane { normal, offset } = self.faces[face as usize].plane;
+            let FacePlane { normal, offset } = self.faces[face as usize].plane;
             let new = support(a, b, normal);
             let reach = dot(normal, new.point);
             if reach < upper {
                 upper = reach;
-                best = Some((face, Plane { normal, offset: reach }));
+                best = Some((face, FacePlane { normal, offset: reach }));
             }
             let has_corners = |v: &Vertex| v.corners == new.corners;
             if upper - offset <= tolerance.max(rounding) || corners && self.vertices.iter().any(has_corners) {
@@ -264,7 +265,7 @@ impl ConvexScratch {
     /// A face that is visible from the last vertex.
     fn facing(&self, rounding: f64) -> Option<u32> {
         let w = self.vertices.last()?.point;
-        let height = |plane: &Plane| dot(plane.normal, w) - plane.offset;
+        let height = |plane: &FacePlane| dot(plane.normal, w) - plane.offset;
         self.faces.iter().position(|f| f.is_on_surface && height(&f.plane) > rounding).map(|f| f as u32)
     }
 
@@ -297,7 +298,7 @@ impl ConvexScratch {
         for i in 0..self.border.len() {
             let outer = self.border[i];
             let (f, k) = place(outer);
-            let Face { plane, from, .. } = self.faces[f];
+            let PolytopeFace { plane, from, .. } = self.faces[f];
             let (start, end) = (from[(k + 1) % 3], from[k]);
             let face = self.faces.len() as u32;
             if self.fan[start as usize] != NONE {
@@ -309,7 +310,7 @@ impl ConvexScratch {
             // For a degenerate triangle the new vertex is on the line of the outer edge, so the triangle takes the
             // plane of its neighbour.
             let plane = self.plane(from).unwrap_or(plane);
-            self.add(Face { plane, from, twin: [outer, NONE, NONE], is_on_surface: true });
+            self.add(PolytopeFace { plane, from, twin: [outer, NONE, NONE], is_on_surface: true });
         }
         for f in first..self.faces.len() {
             let after = self.fan[self.faces[f].from[1] as usize];
@@ -335,7 +336,7 @@ impl ConvexScratch {
             }
         };
         consider(face);
-        for (f, Face { plane: other, .. }) in self.faces.iter().enumerate() {
+        for (f, PolytopeFace { plane: other, .. }) in self.faces.iter().enumerate() {
             let same = dot(other.normal, plane.normal) > 1.0 - SAME_SIDE
                 && (other.offset - plane.offset).abs() < SAME_SIDE * size;
             if same && f as u32 != face {
@@ -348,8 +349,8 @@ impl ConvexScratch {
         let weights = weights.map(|w| w.max(0.0));
         let sum: f64 = weights.iter().sum();
         let vertices = self.faces[face as usize].from.map(|v| &self.vertices[v as usize]);
-        let mean = |of: fn(&Vertex) -> Vec3| {
-            vertices.iter().zip(weights).fold([0.0; 3], |m, (v, w)| add_scaled(m, of(v), w / sum))
+        let mean = |point: fn(&Vertex) -> Vec3| {
+            vertices.iter().zip(weights).fold([0.0; 3], |m, (v, w)| add_scaled(m, point(v), w / sum))
         };
         [mean(|v| v.on_a), mean(|v| v.on_b)]
     }

@@ -8,7 +8,7 @@
 
 use super::difference::{Limits, ROUNDING, support};
 use super::simplex::Corral;
-use super::support::Body;
+use super::support::ConvexBody;
 use crate::math::*;
 
 /// The result of the search.
@@ -23,7 +23,7 @@ pub(super) struct GjkResult {
 }
 
 /// The distance of the bodies, up to `cutoff`.
-pub(super) fn distance(a: &mut Body, b: &mut Body, cutoff: f64, limits: Limits) -> GjkResult {
+pub(super) fn distance(a: &mut ConvexBody, b: &mut ConvexBody, cutoff: f64, limits: Limits) -> GjkResult {
     let towards = unit_vector(sub(b.centre(), a.centre())).0;
     let first = support(a, b, towards);
     let mut found = GjkResult { dist: Some(0.0), corral: Corral::new(first), steps: 1 };

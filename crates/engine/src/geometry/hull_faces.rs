@@ -11,7 +11,7 @@ const FLAT: f64 = 1.0 - 1e-7;
 /// The faces of a hull.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct HullFaces {
-    faces: Vec<Side>,
+    faces: Vec<FlatFace>,
     vertices: Vec<u32>,
     /// For each vertex, the start of its list of faces in `around`; one more entry marks the end.
     first: Vec<u32>,
@@ -20,7 +20,7 @@ pub struct HullFaces {
 
 /// A flat face: its unit normal, and its range in `vertices`.
 #[derive(Clone, Debug, PartialEq)]
-struct Side {
+struct FlatFace {
     normal: Vec3,
     first: u32,
     count: u32,
@@ -56,7 +56,7 @@ impl HullFaces {
         let places = take(2 * count)?;
         let (corners, first, around) = (take(a as usize)?, take(b as usize)?, take(c as usize)?);
         let faces = places.as_chunks::<2>().0.iter().zip(floats.as_chunks::<3>().0);
-        let faces = faces.map(|(&[first, count], &normal)| Side { normal, first, count });
+        let faces = faces.map(|(&[first, count], &normal)| FlatFace { normal, first, count });
         let out = HullFaces { faces: faces.collect(), vertices: corners, first, around };
         let corners = out.vertices.len() as u64;
         let good = rest.is_empty()
@@ -167,7 +167,7 @@ fn merge(vert: &[Vec3], hull: &Hull) -> HullFaces {
         }
         walk_around(&border, &mut out.vertices);
         let count = out.vertices.len() as u32 - first;
-        out.faces.push(Side { normal: normals[start], first, count });
+        out.faces.push(FlatFace { normal: normals[start], first, count });
     }
     out
 }

@@ -30,7 +30,7 @@ pub use hull::Hull;
 pub(crate) use inside::inside_shape;
 
 pub use hull_faces::HullFaces;
-pub(crate) use shape::{Field, Mesh, Shape};
+pub(crate) use shape::{HeightField, Mesh, Shape};
 
 #[cfg(test)]
 pub(crate) mod tests;

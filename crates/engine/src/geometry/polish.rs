@@ -9,7 +9,7 @@
 
 use super::difference::{Limits, support};
 use super::gjk::distance;
-use super::support::Body;
+use super::support::ConvexBody;
 use crate::math::*;
 
 /// Sine of the largest angle of a kink from the start direction for which the kink is examined as a possible minimum
@@ -44,7 +44,7 @@ pub(super) struct Reach {
 }
 
 /// The direction near `start` along which the extent of the difference is smallest.
-pub(super) fn minimize_reach(a: &mut Body, b: &mut Body, start: Vec3, limits: Limits) -> Reach {
+pub(super) fn minimize_reach(a: &mut ConvexBody, b: &mut ConvexBody, start: Vec3, limits: Limits) -> Reach {
     let mut kinks = Kinks::new();
     let of_a = a.kinks(start, NEAR);
     let of_b = b.kinks(scale(start, -1.0), NEAR);
@@ -72,13 +72,13 @@ pub(super) fn minimize_reach(a: &mut Body, b: &mut Body, start: Vec3, limits: Li
 }
 
 /// The extent of the difference along a direction.
-fn height(a: &mut Body, b: &mut Body, n: Vec3) -> (Vec3, f64) {
+fn height(a: &mut ConvexBody, b: &mut ConvexBody, n: Vec3) -> (Vec3, f64) {
     (n, dot(n, support(a, b, n).point))
 }
 
 /// Minimizes the extent over all directions. Also returns whether a smooth minimum was found, where the support point
 /// is parallel to the direction.
-fn free(a: &mut Body, b: &mut Body, start: Vec3) -> ((Vec3, f64), bool) {
+fn free(a: &mut ConvexBody, b: &mut ConvexBody, start: Vec3) -> ((Vec3, f64), bool) {
     let (n, w, h) = descend(a, b, start, |n, w, h, hessian| {
         let f = frame(n);
         let (s, t) = ([f[3], f[4], f[5]], [f[6], f[7], f[8]]);
@@ -95,7 +95,7 @@ fn free(a: &mut Body, b: &mut Body, start: Vec3) -> ((Vec3, f64), bool) {
 }
 
 /// Minimizes the extent over the directions normal to an edge.
-fn minimize_across_edge(a: &mut Body, b: &mut Body, start: Vec3, edge: Vec3) -> (Vec3, f64) {
+fn minimize_across_edge(a: &mut ConvexBody, b: &mut ConvexBody, start: Vec3, edge: Vec3) -> (Vec3, f64) {
     let start = normalize(add_scaled(start, edge, -dot(start, edge))).0;
     let (n, _, h) = descend(a, b, start, |n, w, h, hessian| {
         let t = cross(edge, n);
@@ -114,15 +114,15 @@ fn downhill(slope: f64, curvature: f64) -> f64 {
 /// gets a direction n, its support point, the extent, and a function that returns the Hessian for two tangents: ss,
 /// st, tt. Returns the final direction, support point and extent.
 fn descend(
-    a: &mut Body,
-    b: &mut Body,
+    a: &mut ConvexBody,
+    b: &mut ConvexBody,
     start: Vec3,
     step: impl Fn(Vec3, Vec3, f64, &dyn Fn(Vec3, Vec3, Vec3) -> Vec3) -> Vec3,
 ) -> (Vec3, Vec3, f64) {
     let mut at = (start, support(a, b, start).point);
     let mut h = dot(at.0, at.1);
     let mut part = 1.0;
-    let next_step = |a: &Body, b: &Body, (n, w): (Vec3, Vec3), h: f64| {
+    let next_step = |a: &ConvexBody, b: &ConvexBody, (n, w): (Vec3, Vec3), h: f64| {
         step(n, w, h, &|n, s, t| add(a.support_hessian(n, s, t), b.support_hessian(n, s, t)))
     };
     let mut delta = next_step(a, b, at, h);
@@ -147,18 +147,18 @@ fn descend(
 /// support point is arbitrary. It is then moved opposite to the support point of the other body. For two crossing
 /// edges, the points at the crossing are taken, and for two parallel edges, the midpoint of their common part. For
 /// faces, and for features that might be faces, the bodies are moved until they touch, and a common point is taken.
-fn witness(a: &mut Body, b: &mut Body, n: Vec3, h: f64, limits: Limits) -> [Vec3; 2] {
+fn witness(a: &mut ConvexBody, b: &mut ConvexBody, n: Vec3, h: f64, limits: Limits) -> [Vec3; 2] {
     let v = support(a, b, n);
-    let apart = scale(n, h);
-    if norm(sub(v.point, apart)) <= MIN_STEP * (norm(v.on_a) + norm(v.on_b)) {
+    let offset = scale(n, h);
+    if norm(sub(v.point, offset)) <= MIN_STEP * (norm(v.on_a) + norm(v.on_b)) {
         return [v.on_a, v.on_b];
     }
     let mut edges = |angle: f64| [a.kinks(n, angle), b.kinks(scale(n, -1.0), angle)];
     let (along, nearly) = (edges(NORMAL_TO_EDGE), edges(UNCERTAIN_NORMAL));
     let clear = along.iter().zip(&nearly).all(|(x, y)| x.all().len() == y.all().len());
     let around = |p: Vec3| [add_scaled(p, n, 0.5 * h), add_scaled(p, n, -0.5 * h)];
-    let from_a = |on_a: Vec3| [on_a, sub(on_a, apart)];
-    let from_b = |on_b: Vec3| [add(on_b, apart), on_b];
+    let from_a = |on_a: Vec3| [on_a, sub(on_a, offset)];
+    let from_b = |on_b: Vec3| [add(on_b, offset), on_b];
     let two_faces: [&[Vec3]; 2] = [&[[0.0; 3]; 2]; 2];
     match if clear { along.each_ref().map(|k| k.all()) } else { two_faces } {
         [[], [_, ..]] => from_a(v.on_a),
@@ -171,11 +171,11 @@ fn witness(a: &mut Body, b: &mut Body, n: Vec3, h: f64, limits: Limits) -> [Vec3
             }
             from_a(add_scaled(v.on_a, e, (dot(e, between) - cosine * dot(f, between)) / sine2))
         }
-        _ if norm(sub(v.point, apart)) <= NORMAL_TO_EDGE * (norm(v.on_a) + norm(v.on_b)) => {
+        _ if norm(sub(v.point, offset)) <= NORMAL_TO_EDGE * (norm(v.on_a) + norm(v.on_b)) => {
             around(scale(add(v.on_a, v.on_b), 0.5))
         }
         _ => {
-            let mut moved = b.moved(apart);
+            let mut moved = b.moved(offset);
             let touching = distance(a, &mut moved, f64::INFINITY, limits).corral;
             b.work = moved.work;
             around(add_scaled(touching.mean(|v| v.on_a), n, -0.5 * h))
@@ -190,8 +190,8 @@ fn move_along_edge(line: Vec3, edge: Vec3, at: f64) -> Vec3 {
 
 /// The midpoint of the common part of two parallel edges, as a coordinate along them. The ends of the edges are
 /// support points of slightly tilted directions.
-fn shared_midpoint(a: &mut Body, b: &mut Body, n: Vec3, edge: Vec3) -> f64 {
-    let end = |body: &mut Body, towards: f64, side: f64| {
+fn shared_midpoint(a: &mut ConvexBody, b: &mut ConvexBody, n: Vec3, edge: Vec3) -> f64 {
+    let end = |body: &mut ConvexBody, towards: f64, side: f64| {
         let tilted = normalize(add_scaled(scale(n, towards), edge, side * TILT)).0;
         dot(edge, body.support(tilted))
     };

@@ -61,7 +61,7 @@ fn both([a, b]: Interval, [c, d]: Interval) -> Option<Interval> {
     (from <= to).then_some([from, to])
 }
 
-/// The first end of an interval that is finite and not behind the start of the ray.
+/// The first finite end of an interval at or after the start of the ray.
 fn first([from, to]: Interval) -> Option<f64> {
     [from, to].into_iter().find(|x| (0.0..f64::INFINITY).contains(x))
 }

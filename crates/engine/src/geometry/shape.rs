@@ -19,7 +19,7 @@ pub(crate) struct Shape<'a> {
     /// Data of a mesh; `None` for other types.
     pub mesh: Option<Mesh<'a>>,
     /// Data of a height field; `None` for other types.
-    pub field: Option<Field<'a>>,
+    pub field: Option<HeightField<'a>>,
 }
 
 /// The data of a mesh, in the frame of the geom.
@@ -45,7 +45,7 @@ impl Mesh<'_> {
 
 /// The data of a height field: a grid of elevations above its base.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Field<'a> {
+pub(crate) struct HeightField<'a> {
     /// Half lengths in x and y, height of the top, depth of the base, m.
     pub size: [f64; 4],
     /// Number of samples in y.
@@ -56,7 +56,7 @@ pub(crate) struct Field<'a> {
     pub data: &'a [f64],
 }
 
-impl Field<'_> {
+impl HeightField<'_> {
     /// Distance of neighbouring samples in x and y, m.
     pub(crate) fn step(&self) -> [f64; 2] {
         [2.0 * self.size[0] / (self.ncol as f64 - 1.0), 2.0 * self.size[1] / (self.nrow as f64 - 1.0)]
@@ -85,7 +85,7 @@ impl<'a> Shape<'a> {
     }
 
     /// Its height field data; empty for other types.
-    pub(crate) fn field(&self) -> Field<'a> {
+    pub(crate) fn field(&self) -> HeightField<'a> {
         self.field.unwrap_or_default()
     }
 

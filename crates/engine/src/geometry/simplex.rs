@@ -29,9 +29,9 @@ impl Corral {
     }
 
     /// The weighted mean of a property of the vertices.
-    pub(super) fn mean(&self, of: impl Fn(&Vertex) -> Vec3) -> Vec3 {
+    pub(super) fn mean(&self, point: impl Fn(&Vertex) -> Vec3) -> Vec3 {
         let terms = self.vertices().iter().zip(self.weight);
-        terms.fold([0.0; 3], |sum, (v, w)| add_scaled(sum, of(v), w))
+        terms.fold([0.0; 3], |sum, (v, w)| add_scaled(sum, point(v), w))
     }
 
     /// The point nearest to the origin.

@@ -7,7 +7,7 @@ use crate::math::*;
 
 /// The geometry of a convex body.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Form<'a> {
+pub(crate) enum ConvexForm<'a> {
     /// A convex shape, or the convex hull of a mesh.
     Shape(&'a Shape<'a>),
     /// A triangular prism of a height field: the three bottom corners, then the three top corners above them.
@@ -15,10 +15,10 @@ pub(crate) enum Form<'a> {
 }
 
 /// A convex body for the distance algorithms. The core of a sphere is its centre, that of a capsule its axis; the
-/// remaining thickness is [`Body::radius`].
+/// remaining thickness is [`ConvexBody::radius`].
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Body<'a> {
-    pub(crate) form: Form<'a>,
+pub(crate) struct ConvexBody<'a> {
+    pub(crate) form: ConvexForm<'a>,
     /// Translation of the body from the position of its shape, m, world frame.
     shift: Vec3,
     /// The last corner found, for bodies with corners; -1 for others.
@@ -34,22 +34,22 @@ const SUPPORT: u64 = 40;
 /// Hulls with fewer vertices are searched exhaustively.
 const CLIMB_FROM: usize = 10;
 
-impl<'a> Body<'a> {
-    pub(crate) fn new(shape: &'a Shape<'a>) -> Body<'a> {
-        Body::from_form(Form::Shape(shape))
+impl<'a> ConvexBody<'a> {
+    pub(crate) fn new(shape: &'a Shape<'a>) -> ConvexBody<'a> {
+        ConvexBody::from_form(ConvexForm::Shape(shape))
     }
 
-    pub(crate) fn prism(corners: [Vec3; 6]) -> Body<'a> {
-        Body::from_form(Form::Prism(corners))
+    pub(crate) fn prism(corners: [Vec3; 6]) -> ConvexBody<'a> {
+        ConvexBody::from_form(ConvexForm::Prism(corners))
     }
 
-    fn from_form(form: Form<'a>) -> Body<'a> {
-        Body { form, shift: [0.0; 3], corner: -1, hull_vertex: 0, work: 0 }
+    fn from_form(form: ConvexForm<'a>) -> ConvexBody<'a> {
+        ConvexBody { form, shift: [0.0; 3], corner: -1, hull_vertex: 0, work: 0 }
     }
 
     /// The same body, translated.
-    pub(super) fn moved(&self, by: Vec3) -> Body<'a> {
-        Body { shift: by, ..*self }
+    pub(super) fn moved(&self, by: Vec3) -> ConvexBody<'a> {
+        ConvexBody { shift: by, ..*self }
     }
 
     /// The last corner found; -1 if the body has no corners.
@@ -60,23 +60,23 @@ impl<'a> Body<'a> {
     /// The type of its geom.
     pub(crate) fn kind(&self) -> i32 {
         match self.form {
-            Form::Shape(s) => s.kind,
-            Form::Prism(_) => geom::HFIELD,
+            ConvexForm::Shape(s) => s.kind,
+            ConvexForm::Prism(_) => geom::HFIELD,
         }
     }
 
     /// A point inside the body.
     pub(super) fn centre(&self) -> Vec3 {
         match self.form {
-            Form::Shape(s) => add(s.pos, self.shift),
-            Form::Prism(corners) => scale(corners.into_iter().fold([0.0; 3], add), 1.0 / 6.0),
+            ConvexForm::Shape(s) => add(s.pos, self.shift),
+            ConvexForm::Prism(corners) => scale(corners.into_iter().fold([0.0; 3], add), 1.0 / 6.0),
         }
     }
 
     /// The radius of the body around its core, m; zero for types without a core.
     pub(super) fn radius(&self) -> f64 {
         match self.form {
-            Form::Shape(s) if matches!(s.kind, geom::SPHERE | geom::CAPSULE) => s.size[0],
+            ConvexForm::Shape(s) if matches!(s.kind, geom::SPHERE | geom::CAPSULE) => s.size[0],
             _ => 0.0,
         }
     }
@@ -90,11 +90,11 @@ impl<'a> Body<'a> {
     pub(crate) fn support(&mut self, dir: Vec3) -> Vec3 {
         self.work += SUPPORT;
         let point = match self.form {
-            Form::Prism(corners) => {
+            ConvexForm::Prism(corners) => {
                 self.corner = prism(&corners, dir) as i32;
                 corners[self.corner as usize]
             }
-            Form::Shape(s) => {
+            ConvexForm::Shape(s) => {
                 let local = mat_t_mul_vec(&s.mat, dir);
                 s.world(self.local_support(s, local))
             }
@@ -106,7 +106,7 @@ impl<'a> Body<'a> {
     /// frame): ss, st, tt, m. On tangents it contains the radii of curvature where the body is round; it is zero at
     /// corners.
     pub(super) fn support_hessian(&self, dir: Vec3, s: Vec3, t: Vec3) -> Vec3 {
-        let Form::Shape(shape) = self.form else { return [0.0; 3] };
+        let ConvexForm::Shape(shape) = self.form else { return [0.0; 3] };
         if !matches!(shape.kind, geom::ELLIPSOID | geom::CYLINDER) {
             return [0.0; 3];
         }
@@ -144,14 +144,14 @@ impl<'a> Body<'a> {
             }
         };
         match self.form {
-            Form::Prism(corners) => {
+            ConvexForm::Prism(corners) => {
                 let first = if dir[2] < 0.0 { 0 } else { 3 };
                 for k in 0..3 {
                     consider(unit_vector(sub(corners[first + (k + 1) % 3], corners[first + k])).0);
                 }
                 consider([0.0, 0.0, 1.0]);
             }
-            Form::Shape(s) => match s.kind {
+            ConvexForm::Shape(s) => match s.kind {
                 geom::BOX => (0..3).for_each(|i| consider(s.axis(i))),
                 geom::CAPSULE => consider(s.axis(2)),
                 geom::CYLINDER if norm(cross(s.axis(2), dir)) < near => {

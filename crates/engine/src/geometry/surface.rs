@@ -1,7 +1,7 @@
 //! Rays against triangles of meshes and height fields.
 
 use super::ray::{Crossing, Hit, PARALLEL, Ray, crossings, nearer};
-use super::{Field, Mesh};
+use super::{HeightField, Mesh};
 use crate::math::*;
 
 /// Work units of a ray against a triangle.
@@ -83,7 +83,7 @@ pub(super) fn mesh(mesh: &Mesh, size: Vec3, ray: &Ray, work: &mut u64) -> Option
 }
 
 /// A ray against a height field: the box below it, the triangles of its surface, and the side walls between them.
-pub(super) fn field(field: &Field, ray: &Ray, work: &mut u64) -> Option<Hit> {
+pub(super) fn field(field: &HeightField, ray: &Ray, work: &mut u64) -> Option<Hit> {
     let [sx, sy, top, base] = field.size;
     let shifted = |z: f64| Ray { from: sub(ray.from, [0.0, 0.0, z]), ..*ray };
     let mut best = None;
@@ -127,7 +127,7 @@ fn cells(ends: [Vec3; 2], half: f64, i: usize, samples: usize) -> std::ops::Rang
 }
 
 /// Whether a point of a side wall is below the edge of the surface.
-fn below_rim(field: &Field, on: Vec3, wall: &Crossing) -> bool {
+fn below_rim(field: &HeightField, on: Vec3, wall: &Crossing) -> bool {
     let along = 1 - wall.axis;
     let samples = if along == 1 { field.nrow } else { field.ncol };
     let y = (on[along] + field.size[along]) / field.step()[along];

@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 
 use super::convex::{Convex, nearest};
 use super::pair::{self, ContactPoint, Method, PairSettings};
-use super::{Field, Hull, HullFaces, Mesh, Narrow, Shape, ray, ray_shape};
+use super::{HeightField, Hull, HullFaces, Mesh, Narrow, Shape, ray, ray_shape};
 use crate::kinds::geom;
 use crate::math::*;
 use crate::model::Model;
@@ -89,7 +89,7 @@ impl Assets {
                 let (head, samples) = self.field.as_ref().unwrap();
                 let size = [head[2], head[3], head[4], head[5]];
                 shape.field =
-                    Some(Field { size, nrow: head[0] as usize, ncol: head[1] as usize, data: samples });
+                    Some(HeightField { size, nrow: head[0] as usize, ncol: head[1] as usize, data: samples });
             }
             _ => {}
         }
@@ -128,9 +128,9 @@ struct Cases {
 }
 
 #[derive(Default)]
-struct Report(BTreeMap<String, Cases>);
+struct ToleranceReport(BTreeMap<String, Cases>);
 
-impl Report {
+impl ToleranceReport {
     fn note(&mut self, name: String, case: usize, difference: f64, bound: f64, line: &str) {
         let r = self.0.entry(name).or_default();
         r.number += 1;
@@ -151,9 +151,9 @@ impl Report {
                 "{name:24} {number:6} cases, {} beyond the bound, else within {worst:.1e}\n",
                 r.beyond.len()
             );
-            for (case, apart, line) in &r.beyond {
+            for (case, error, line) in &r.beyond {
                 if !allowed.iter().any(|(of, cases, _)| of == name && cases.contains(case)) {
-                    wrong += &format!("{name}, case {case}: {apart:.1e} apart\n    {line}\n");
+                    wrong += &format!("{name}, case {case}: {error:.1e} apart\n    {line}\n");
                 }
             }
         }
@@ -177,15 +177,15 @@ fn difference(a: &[f64], b: &[f64]) -> f64 {
     if a.len() != b.len() {
         return f64::INFINITY;
     }
-    let apart = a.iter().zip(b).map(|(x, y)| (x - y).abs());
-    apart.fold(0.0, |m, d| if d.is_nan() { f64::INFINITY } else { m.max(d) })
+    let error = a.iter().zip(b).map(|(x, y)| (x - y).abs());
+    error.fold(0.0, |m, d| if d.is_nan() { f64::INFINITY } else { m.max(d) })
 }
 
 /// Reorders one list of contacts like another: each contact is matched with the nearest one that remains.
-fn in_order_of(want: &[f64], got: &[f64]) -> Vec<f64> {
-    let (want, mut left) = (rows::<10>(want), rows::<10>(got).to_vec());
+fn in_order_of(expected: &[f64], got: &[f64]) -> Vec<f64> {
+    let (expected, mut left) = (rows::<10>(expected), rows::<10>(got).to_vec());
     let mut out = Vec::new();
-    for w in want {
+    for w in expected {
         let far = |g: &[f64; 10]| difference(&g[1..4], &w[1..4]);
         let Some(k) = (0..left.len()).min_by(|&i, &j| far(&left[i]).total_cmp(&far(&left[j]))) else { break };
         out.extend(left.remove(k));
@@ -222,9 +222,9 @@ fn pierced(a: &Shape, b: &Shape) -> bool {
 fn rays_hit_where_they_do_in_mujoco() {
     let (text, print) = cases("rays.txt", include_str!("golden/rays.txt"));
     let assets = Assets::read(&text);
-    let mut report = Report::default();
+    let mut report = ToleranceReport::default();
     for (case, line) in text.lines().filter(|l| l.starts_with("ray ")).enumerate() {
-        let (given, want) = line.split_once('|').unwrap();
+        let (given, expected) = line.split_once('|').unwrap();
         let mut words = given.split_whitespace();
         words.next();
         let shape = assets.shape(&mut words);
@@ -232,7 +232,13 @@ fn rays_hit_where_they_do_in_mujoco() {
         let hit = ray_shape(&shape, [v[0], v[1], v[2]], [v[3], v[4], v[5]], &mut 0);
         let got = hit.map_or([-1.0, 0.0, 0.0, 0.0], |h| [h.distance, h.normal[0], h.normal[1], h.normal[2]]);
         let name = KINDS[shape.kind as usize].to_string();
-        report.note(name, case, difference(&got, &floats(want)), 1e-10, &format!("{line}\n    got {got:?}"));
+        report.note(
+            name,
+            case,
+            difference(&got, &floats(expected)),
+            1e-10,
+            &format!("{line}\n    got {got:?}"),
+        );
     }
     report.finish(print, &[]);
 }
@@ -279,10 +285,10 @@ const DISTANCES: &[Known] = &[("box-box fromto", &[1235], FLAT), ("capsule-cylin
 fn distances_are_those_of_mujoco() {
     let (text, print) = cases("pairs.txt", include_str!("golden/pairs.txt"));
     let assets = Assets::read(&text);
-    let (mut report, mut figures) = (Report::default(), Figures::default());
+    let (mut report, mut figures) = (ToleranceReport::default(), Figures::default());
     let mut work = Narrow::default();
     for (case, line) in text.lines().filter(|l| l.starts_with("distance ")).enumerate() {
-        let (given, want) = line.split_once('|').unwrap();
+        let (given, expected) = line.split_once('|').unwrap();
         let mut words = given.split_whitespace();
         words.next();
         let (a, b) = (assets.shape(&mut words), assets.shape(&mut words));
@@ -296,22 +302,28 @@ fn distances_are_those_of_mujoco() {
         let found = super::distance::shape_distance(&a, &b, most, &precise_settings(), &mut work).unwrap();
         let [p, q] = found.fromto;
         let got = [found.dist, p[0], p[1], p[2], q[0], q[1], q[2]];
-        let want = floats(want);
+        let expected = floats(expected);
         let kinds = |a: &Shape, b: &Shape| format!("{}-{}", KINDS[a.kind as usize], KINDS[b.kind as usize]);
         let name = |end| format!("{} {end}", kinds(&a, &b));
-        figures.distance(&kinds(least, other), want[0], got[0]);
+        figures.distance(&kinds(least, other), expected[0], got[0]);
         let scale = 1.0 + norm(a.size).min(norm(b.size));
         let rendered = format!("{line}\n    got {got:?}");
         let exact = !searched || cornered(&a) && cornered(&b);
         let (depth, point) = if exact { (1e-10, 1e-7) } else { (DEPTH, POINT) };
-        let apart = difference(&got[..1], &want[..1]);
-        if searched && apart > depth * scale && truth::is_true(&a, &b) {
+        let error = difference(&got[..1], &expected[..1]);
+        if searched && error > depth * scale && truth::is_true(&a, &b) {
             continue; // MuJoCo's search stopped before it converged.
         }
-        report.note(name("dist"), case, apart, depth * scale, &rendered);
+        report.note(name("dist"), case, error, depth * scale, &rendered);
         // For bodies that barely touch, the nearest points can be anywhere along the gap.
         if !searched || got[0].abs() > CLOSE {
-            report.note(name("fromto"), case, difference(&got[1..], &want[1..]), point * scale, &rendered);
+            report.note(
+                name("fromto"),
+                case,
+                difference(&got[1..], &expected[1..]),
+                point * scale,
+                &rendered,
+            );
         }
     }
     write_table("distances.md", &figures.distance_table());
@@ -337,10 +349,10 @@ const CONTACTS: &[Known] = &[
 fn contacts_are_those_of_mujoco() {
     let (text, print) = cases("pairs.txt", include_str!("golden/pairs.txt"));
     let assets = Assets::read(&text);
-    let (mut report, mut figures) = (Report::default(), Figures::default());
+    let (mut report, mut figures) = (ToleranceReport::default(), Figures::default());
     let mut work = Narrow::default();
     for (case, line) in text.lines().filter(|l| l.starts_with("contact ")).enumerate() {
-        let (given, want) = line.split_once('|').unwrap();
+        let (given, expected) = line.split_once('|').unwrap();
         let mut words = given.split_whitespace();
         words.next();
         let (a, b) = (assets.shape(&mut words), assets.shape(&mut words));
@@ -358,25 +370,25 @@ fn contacts_are_those_of_mujoco() {
             got.extend(t.pos);
             got.extend(&frame_along(t.normal, t.tangent)[..6]);
         }
-        let mut want = floats(want);
+        let mut expected = floats(expected);
         if !searched {
-            (want, got) = (distinct(want), distinct(got));
+            (expected, got) = (distinct(expected), distinct(got));
         }
         let kinds = format!("{}-{}", KINDS[a.kind as usize], KINDS[b.kind as usize]);
         // Contacts are compared as a set: their order depends on the method.
-        got = in_order_of(&want, &got);
+        got = in_order_of(&expected, &got);
         if pierced(&a, &b) {
-            figures.contacts(&format!("{kinds}, axis in the box"), &want, &got);
+            figures.contacts(&format!("{kinds}, axis in the box"), &expected, &got);
             continue;
         }
-        figures.contacts(&kinds, &want, &got);
+        figures.contacts(&kinds, &expected, &got);
         let scale = 1.0 + norm(a.size).min(norm(b.size));
         let rendered = format!("{line}\n    got {got:?}");
         if !searched {
-            report.note(kinds, case, difference(&got, &want), 1e-10 * scale, &rendered);
+            report.note(kinds, case, difference(&got, &expected), 1e-10 * scale, &rendered);
             continue;
         }
-        let number = (got.len().abs_diff(want.len()) / 10) as f64;
+        let number = (got.len().abs_diff(expected.len()) / 10) as f64;
         report.note(format!("{kinds} number"), case, number, 0.5, &rendered);
         // MuJoCo's search from inside a prism of the height field ends too early if the other shape has corners,
         // because it treats all corners of the prism as the same one.
@@ -384,7 +396,7 @@ fn contacts_are_those_of_mujoco() {
         if number == 0.0 && !ends_early {
             let (dist, rest): (Vec<_>, Vec<_>) = got
                 .chunks(10)
-                .zip(want.chunks(10))
+                .zip(expected.chunks(10))
                 .map(|(g, w)| (difference(&g[..1], &w[..1]), difference(&g[1..], &w[1..])))
                 .unzip();
             let most = |list: &[f64]| list.iter().copied().fold(0.0, f64::max);
@@ -440,7 +452,8 @@ fn hostile_numbers_are_harmless() {
         if s.kind == geom::HFIELD {
             let (head, samples) = assets.field.as_ref().unwrap();
             let size = [at(6), at(7), at(8), at(9)];
-            s.field = Some(Field { size, nrow: head[0] as usize, ncol: head[1] as usize, data: samples });
+            s.field =
+                Some(HeightField { size, nrow: head[0] as usize, ncol: head[1] as usize, data: samples });
         }
         s
     };

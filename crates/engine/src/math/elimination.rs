@@ -6,8 +6,8 @@ use super::{MINVAL, Spatial, Vec3};
 /// and the linear part of the system are not coupled, each 3×3 block is solved separately.
 pub(crate) fn solve_six(a: &mut [Spatial; 6], x: &mut Spatial) -> bool {
     let [_, _, _, d, e, f] = &a;
-    let apart = a[..3].iter().all(|r| r[3..] == [0.0; 3]) && [d, e, f].iter().all(|r| r[..3] == [0.0; 3]);
-    if !apart {
+    let decoupled = a[..3].iter().all(|r| r[3..] == [0.0; 3]) && [d, e, f].iter().all(|r| r[..3] == [0.0; 3]);
+    if !decoupled {
         return eliminate(a, x);
     }
     [0, 3].iter().all(|&first| {

@@ -7,22 +7,22 @@ use wide::f64x4;
 
 /// Transposes the rows of four bodies: lane i of result k is component k of the row of body `of[i]`.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(crate) fn gather<const N: usize>(rows: &[[f64; N]], of: [usize; 4]) -> [f64x4; N] {
-    let [a, b, c, d] = of.map(|i| &rows[i]);
+pub(crate) fn gather<const N: usize>(rows: &[[f64; N]], indexes: [usize; 4]) -> [f64x4; N] {
+    let [a, b, c, d] = indexes.map(|i| &rows[i]);
     from_fn(|k| f64x4::new([a[k], b[k], c[k], d[k]]))
 }
 
 /// One number of each of four bodies.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(crate) fn gather_one(numbers: &[f64], of: [usize; 4]) -> f64x4 {
-    f64x4::new(of.map(|i| numbers[i]))
+pub(crate) fn gather_one(numbers: &[f64], indexes: [usize; 4]) -> f64x4 {
+    f64x4::new(indexes.map(|i| numbers[i]))
 }
 
 /// Writes lanes back to the rows of four bodies: the inverse of [`gather`].
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(crate) fn scatter<const N: usize>(lanes: [f64x4; N], rows: &mut [[f64; N]], of: [usize; 4]) {
+pub(crate) fn scatter<const N: usize>(lanes: [f64x4; N], rows: &mut [[f64; N]], indexes: [usize; 4]) {
     let columns = lanes.map(|v| v.to_array());
-    for (lane, i) in of.into_iter().enumerate() {
+    for (lane, i) in indexes.into_iter().enumerate() {
         rows[i] = from_fn(|k| columns[k][lane]);
     }
 }

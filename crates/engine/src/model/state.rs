@@ -56,7 +56,7 @@ pub enum StateError {
     /// The length of the list does not match the signature.
     Length {
         /// The length that the signature requires.
-        wanted: usize,
+        expected: usize,
         /// The length of the list.
         found: usize,
     },
@@ -74,8 +74,8 @@ impl fmt::Display for StateError {
                     1 << (COUNT - 1)
                 )
             }
-            StateError::Length { wanted, found } => {
-                write!(f, "a state of this signature has {wanted} numbers, and the list has {found}")
+            StateError::Length { expected, found } => {
+                write!(f, "a state of this signature has {expected} numbers, and the list has {found}")
             }
             StateError::Missing(bits) => {
                 write!(f, "the list does not contain the requested parts {bits}")
@@ -93,9 +93,9 @@ pub fn size(m: &Model, sig: i32) -> Result<usize, StateError> {
 
 /// Writes a state to `out`, which has `size` numbers (`mj_getState`).
 pub fn get(d: &Fields, out: &mut [f64], sig: i32) -> Result<(), StateError> {
-    let wanted = bits(sig)?.map(|bit| part(d, bit).len()).sum();
-    if wanted != out.len() {
-        return Err(StateError::Length { wanted, found: out.len() });
+    let expected = bits(sig)?.map(|bit| part(d, bit).len()).sum();
+    if expected != out.len() {
+        return Err(StateError::Length { expected, found: out.len() });
     }
     let mut rest = out;
     for bit in bits(sig)? {
@@ -149,7 +149,7 @@ pub fn copy(m: &Model, from: &Fields, to: &mut Fields, sig: i32) -> Result<(), S
             (View::F64(x), ViewMut::F64(out)) if x.len() == out.len() => out.copy_from_slice(x),
             (View::Bool(x), ViewMut::Bool(out)) if x.len() == out.len() => out.copy_from_slice(x),
             (x, _) if x.is_empty() => {}
-            (x, _) => return Err(StateError::Length { wanted: length(m, bit), found: x.len() }),
+            (x, _) => return Err(StateError::Length { expected: length(m, bit), found: x.len() }),
         }
     }
     Ok(())
@@ -168,8 +168,8 @@ fn length(m: &Model, bit: usize) -> usize {
 }
 
 fn fits(m: &Model, sig: i32, found: usize) -> Result<(), StateError> {
-    let wanted = size(m, sig)?;
-    if wanted == found { Ok(()) } else { Err(StateError::Length { wanted, found }) }
+    let expected = size(m, sig)?;
+    if expected == found { Ok(()) } else { Err(StateError::Length { expected, found }) }
 }
 
 #[cfg(test)]

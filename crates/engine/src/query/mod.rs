@@ -2,12 +2,12 @@
 //!
 //! The geometry itself is in [`crate::geometry`], which does not depend on models and data.
 
-mod apart;
+mod distance;
 mod ray_hits;
 mod shape_of;
 mod within;
 
-pub use apart::geom_distance;
+pub use distance::geom_distance;
 pub use ray_hits::{RayFilter, RayHit};
 pub use ray_hits::{counted_ray, ray};
 pub use within::inside_site;

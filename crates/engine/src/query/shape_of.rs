@@ -1,6 +1,6 @@
 //! The shapes of geoms and sites of a model, at their poses in the data.
 
-use crate::geometry::{Field, Hull, Mesh, Shape};
+use crate::geometry::{HeightField, Hull, Mesh, Shape};
 use crate::kinds::geom;
 use crate::math::*;
 use crate::model::index::element_range;
@@ -15,7 +15,7 @@ impl<'a> Shape<'a> {
         if let Ok(id) = usize::try_from(m.geom_dataid[g]) {
             match shape.kind {
                 geom::MESH => shape.mesh = Some(Mesh::from_model(m, id)),
-                geom::HFIELD => shape.field = Some(Field::from_model(m, id)),
+                geom::HFIELD => shape.field = Some(HeightField::from_model(m, id)),
                 _ => {}
             }
         }
@@ -49,12 +49,12 @@ impl<'a> Mesh<'a> {
     }
 }
 
-impl<'a> Field<'a> {
+impl<'a> HeightField<'a> {
     /// Height field `id` of a model.
-    pub(crate) fn from_model(m: &'a Model, id: usize) -> Field<'a> {
+    pub(crate) fn from_model(m: &'a Model, id: usize) -> HeightField<'a> {
         let (nrow, ncol) = (m.hfield_nrow[id].max(0) as usize, m.hfield_ncol[id].max(0) as usize);
         let first = m.hfield_adr[id].max(0) as usize;
         let data = &m.hfield_data[first..first + nrow * ncol];
-        Field { size: rows::<4>(&m.hfield_size)[id], nrow, ncol, data }
+        HeightField { size: rows::<4>(&m.hfield_size)[id], nrow, ncol, data }
     }
 }

@@ -1,6 +1,6 @@
 //! Contact sensors: touch, and contacts that are filtered and reduced.
 
-use super::Scratch;
+use super::SensorScratch;
 use super::data_layout;
 use super::data_layout::CONTACT_DATA;
 use super::put;
@@ -52,7 +52,7 @@ mod reduce {
 
 /// A contact that passes the filter of a sensor.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Match {
+pub(crate) struct ContactMatch {
     contact: usize,
     /// Whether the contact is reported from the side of geom 2.
     flip: bool,
@@ -62,7 +62,7 @@ pub(crate) struct Match {
 
 /// Writes the contacts that pass the filter, one slot of data fields each, up to the number of slots. Unused slots
 /// are zero.
-pub(super) fn contacts(m: &Model, d: &mut Fields, w: &mut Scratch, s: usize, out: &mut [f64]) {
+pub(super) fn contacts(m: &Model, d: &mut Fields, w: &mut SensorScratch, s: usize, out: &mut [f64]) {
     out.fill(0.0);
     d.meter.add(20 * d.contact.len() as u64);
     let [mask, reduction] = [m.sensor_intprm[3 * s], m.sensor_intprm[3 * s + 1]];
@@ -78,7 +78,7 @@ pub(super) fn contacts(m: &Model, d: &mut Fields, w: &mut Scratch, s: usize, out
             }
             _ => 0.0,
         };
-        list.push(Match { contact: i, flip, key });
+        list.push(ContactMatch { contact: i, flip, key });
     }
     if reduction == reduce::NETFORCE {
         net(m, d, list, mask, out);
@@ -138,7 +138,7 @@ fn is_selected(m: &Model, (kind, id): (i32, i32), geom: usize) -> bool {
 
 /// Writes the fields of one contact. Reported from the other side, its frame is rotated by 180° about the second
 /// tangent.
-fn single(m: &Model, d: &Fields, found: &Match, count: usize, mask: i32, out: &mut [f64]) {
+fn single(m: &Model, d: &Fields, found: &ContactMatch, count: usize, mask: i32, out: &mut [f64]) {
     let c = &d.contact[found.contact];
     let f = contact_force(m, d, c);
     let sign = if found.flip { -1.0 } else { 1.0 };
@@ -150,8 +150,8 @@ fn single(m: &Model, d: &Fields, found: &Match, count: usize, mask: i32, out: &m
 }
 
 /// Writes the net force and torque, world frame, at the mean of the contact points weighted by force.
-fn net(m: &Model, d: &Fields, list: &[Match], mask: i32, out: &mut [f64]) {
-    let wrench = |found: &Match| {
+fn net(m: &Model, d: &Fields, list: &[ContactMatch], mask: i32, out: &mut [f64]) {
+    let wrench = |found: &ContactMatch| {
         let c = &d.contact[found.contact];
         let f = scale(contact_force(m, d, c), if found.flip { -1.0 } else { 1.0 });
         let [force, torque] = [[f[0], f[1], f[2]], [f[3], f[4], f[5]]].map(|v| mat_t_mul_vec(&c.frame, v));

@@ -2,18 +2,18 @@
 //! a site.
 
 use super::put;
-use crate::dynamics::object::{self, Frame};
+use crate::dynamics::object::{self, ObjectFrame};
 use crate::math::*;
 use crate::model::{Fields, Model};
 use crate::query;
 
 /// The frame of the sensed object.
-fn sensed_frame(m: &Model, d: &Fields, s: usize) -> Option<Frame> {
+fn sensed_frame(m: &Model, d: &Fields, s: usize) -> Option<ObjectFrame> {
     object::frame(m, d, m.sensor_objtype[s], usize::try_from(m.sensor_objid[s]).ok()?)
 }
 
 /// The reference frame of the sensor; `None` for the world.
-fn reference(m: &Model, d: &Fields, s: usize) -> Option<Frame> {
+fn reference(m: &Model, d: &Fields, s: usize) -> Option<ObjectFrame> {
     object::frame(m, d, m.sensor_reftype[s], usize::try_from(m.sensor_refid[s]).ok()?)
 }
 
@@ -23,9 +23,9 @@ pub(super) fn position(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) {
 }
 
 pub(super) fn orientation(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) {
-    let of = |objtype: i32, id: i32| object::orientation(m, d, objtype, usize::try_from(id).ok()?);
-    let Some(q) = of(m.sensor_objtype[s], m.sensor_objid[s]) else { return };
-    let r = of(m.sensor_reftype[s], m.sensor_refid[s]);
+    let orientation = |objtype: i32, id: i32| object::orientation(m, d, objtype, usize::try_from(id).ok()?);
+    let Some(q) = orientation(m.sensor_objtype[s], m.sensor_objid[s]) else { return };
+    let r = orientation(m.sensor_reftype[s], m.sensor_refid[s]);
     put(out, r.map_or(q, |r| quat_mul(quat_conj(r), q)));
 }
 

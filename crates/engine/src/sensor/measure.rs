@@ -86,9 +86,9 @@ pub(super) fn actuator_force(m: &Model, d: &mut Fields, s: usize, out: &mut [f64
 }
 
 /// The values of all outputs of the sensed actuator.
-fn outputs(m: &Model, s: usize, of: &[f64], out: &mut [f64]) {
+fn outputs(m: &Model, s: usize, values: &[f64], out: &mut [f64]) {
     let first = m.actuator_outadr[object(m, s)] as usize;
-    out.copy_from_slice(&of[first..first + out.len()]);
+    out.copy_from_slice(&values[first..first + out.len()]);
 }
 
 /// The first row of the limit of a joint or tendon; `None` if the limit is not active.

@@ -19,9 +19,9 @@ pub use data_layout::{CONTACT_DATA, RAY_DATA, size as data_size};
 pub use needs_search::searched_pair;
 pub(crate) use timing::{record, reset};
 
-use contact_sensor::Match;
+use contact_sensor::ContactMatch;
 use table::Read;
-pub use table::{Datatype, KINDS, Kind, SensorStage, SensorTarget, for_sensor, kind};
+pub use table::{Datatype, KINDS, SensorKind, SensorStage, SensorTarget, for_sensor, kind};
 
 use crate::geometry::Narrow;
 use crate::kinds::{disable, joint};
@@ -32,9 +32,9 @@ use std::ops::Range;
 
 /// Scratch memory of sensors, allocated once.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Scratch {
+pub struct SensorScratch {
     /// Contacts that pass the filter of a sensor.
-    matches: Vec<Match>,
+    matches: Vec<ContactMatch>,
     /// Scratch for distances.
     pub narrow: Narrow,
     /// Centres (m, world frame) and radii (m) of the bounding spheres of the geoms of a body.
@@ -60,7 +60,7 @@ pub fn is_read(m: &Model, s: usize, sensed: Values) -> bool {
 }
 
 /// Evaluates the sensors of a stage that are read. While sensors are disabled, their values do not change.
-pub fn evaluate(m: &Model, d: &mut Fields, w: &mut Scratch, when: SensorStage) {
+pub fn evaluate(m: &Model, d: &mut Fields, w: &mut SensorScratch, when: SensorStage) {
     if m.opt.disabled(disable::SENSOR) || d.meter.over() {
         return;
     }
@@ -74,7 +74,7 @@ pub fn evaluate(m: &Model, d: &mut Fields, w: &mut Scratch, when: SensorStage) {
 /// Writes the values of sensor `s`, if it is read: past values, or the current measurement. If everything that it
 /// measures sleeps, the values do not change.
 #[inline(never)] // most sensors belong to another stage
-fn show(m: &Model, d: &mut Fields, w: &mut Scratch, s: usize) {
+fn show(m: &Model, d: &mut Fields, w: &mut SensorScratch, s: usize) {
     if (d.plan.every_sensor || is_read(m, s, d.plan.sensed)) && !sleeps(m, d, s) {
         // `sensordata` is taken out because reading a sensor needs the data mutably; this allocates nothing.
         let mut values = std::mem::take(&mut d.sensordata);
@@ -107,7 +107,7 @@ fn sleeps(m: &Model, d: &Fields, s: usize) -> bool {
 
 /// Measures the current values of sensor `s` and applies its cutoff. The cutoff of `fromto` applies to the distance,
 /// not to the points; contact sensors have no cutoff.
-fn read(m: &Model, d: &mut Fields, w: &mut Scratch, s: usize, out: &mut [f64]) {
+fn read(m: &Model, d: &mut Fields, w: &mut SensorScratch, s: usize, out: &mut [f64]) {
     match for_sensor(m, s).read {
         Read::Of(read) => read(m, d, s, out),
         Read::With(read) => read(m, d, w, s, out),

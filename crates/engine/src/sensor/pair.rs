@@ -2,7 +2,7 @@
 //!
 //! If the distance exceeds the cutoff, the reported distance is the cutoff, and the other values are zero.
 
-use super::{Scratch, put};
+use super::{SensorScratch, put};
 use crate::geometry::Shape;
 use crate::kinds::geom;
 use crate::math::*;
@@ -26,7 +26,7 @@ pub(super) fn geoms(m: &Model, objtype: i32, id: i32) -> std::ops::Range<usize> 
 
 /// The nearest pair among the geoms of both sides: signed distance, and the segment from the first to the second
 /// geom.
-fn nearest(m: &Model, d: &mut Fields, w: &mut Scratch, s: usize) -> (f64, [Vec3; 2]) {
+fn nearest(m: &Model, d: &mut Fields, w: &mut SensorScratch, s: usize) -> (f64, [Vec3; 2]) {
     let cutoff = m.sensor_cutoff[s];
     let mut best = (cutoff, [[0.0; 3]; 2]);
     let others = geoms(m, m.sensor_reftype[s], m.sensor_refid[s]);
@@ -42,8 +42,8 @@ fn nearest(m: &Model, d: &mut Fields, w: &mut Scratch, s: usize) -> (f64, [Vec3;
             }
             let (other, another) = w.bounds[i];
             let reach = (best.0.max(0.0) + radius + another) * (1.0 + ROUNDING);
-            let apart = sub(other, centre);
-            if dot(apart, apart) > reach * reach {
+            let offset = sub(other, centre);
+            if dot(offset, offset) > reach * reach {
                 continue;
             }
             // Models that need the general algorithm are refused when they are read by a build without it: see
@@ -68,18 +68,18 @@ fn bound(m: &Model, d: &Fields, g: usize) -> f64 {
     }
 }
 
-pub(super) fn distance(m: &Model, d: &mut Fields, w: &mut Scratch, s: usize, out: &mut [f64]) {
+pub(super) fn distance(m: &Model, d: &mut Fields, w: &mut SensorScratch, s: usize, out: &mut [f64]) {
     put(out, [nearest(m, d, w, s).0]);
 }
 
 /// The direction from the first to the second geom. If they overlap, it points outwards from the deepest point.
-pub(super) fn normal(m: &Model, d: &mut Fields, w: &mut Scratch, s: usize, out: &mut [f64]) {
+pub(super) fn normal(m: &Model, d: &mut Fields, w: &mut SensorScratch, s: usize, out: &mut [f64]) {
     let (_, [from, to]) = nearest(m, d, w, s);
     let along = sub(to, from);
     put(out, if along == [0.0; 3] { along } else { normalize(along).0 });
 }
 
-pub(super) fn from_to(m: &Model, d: &mut Fields, w: &mut Scratch, s: usize, out: &mut [f64]) {
+pub(super) fn from_to(m: &Model, d: &mut Fields, w: &mut SensorScratch, s: usize, out: &mut [f64]) {
     let (_, [from, to]) = nearest(m, d, w, s);
     put(out, [from[0], from[1], from[2], to[0], to[1], to[2]]);
 }

@@ -7,14 +7,14 @@
 use super::data_layout;
 use super::data_layout::RAY_DATA;
 use super::put;
-use crate::dynamics::object::{self, Frame};
+use crate::dynamics::object::{self, ObjectFrame};
 use crate::kinds::projection;
 use crate::math::*;
 use crate::model::{Fields, Model, Obj};
 use crate::query::{self, RayFilter};
 
 /// A ray: its start (m) and its unit direction, world frame.
-struct Ray {
+struct SensorRay {
     from: Vec3,
     along: Vec3,
 }
@@ -24,10 +24,10 @@ pub(super) fn rangefinder(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) 
     let Some(f) = object::frame(m, d, m.sensor_objtype[s], id) else { return };
     let mask = m.sensor_intprm[3 * s];
     if m.sensor_objtype[s] != Obj::Camera as i32 {
-        let ray = Ray { from: f.pos, along: column(&f.mat, 2) };
+        let ray = SensorRay { from: f.pos, along: column(&f.mat, 2) };
         return cast(m, d, &ray, &f, false, mask, out);
     }
-    let camera = Camera::from_model(m, id);
+    let camera = CameraOptics::from_model(m, id);
     let [width, _] = camera.resolution;
     let size = data_layout::size(&RAY_DATA, mask).max(1);
     for (pixel, out) in out.chunks_exact_mut(size).enumerate() {
@@ -42,7 +42,15 @@ pub(super) fn rangefinder(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) 
 /// Writes the data of a ray from the frame `f`. If it hits nothing, distance and depth are -1; direction, point and
 /// normal are zero. The body of the sensor itself is not hit. The depth of a camera is measured along its axis, that
 /// of a site along the ray.
-fn cast(m: &Model, d: &mut Fields, ray: &Ray, f: &Frame, in_image: bool, mask: i32, out: &mut [f64]) {
+fn cast(
+    m: &Model,
+    d: &mut Fields,
+    ray: &SensorRay,
+    f: &ObjectFrame,
+    in_image: bool,
+    mask: i32,
+    out: &mut [f64],
+) {
     let filter = RayFilter { exclude_body: Some(f.body), ..RayFilter::default() };
     let none = [0.0; 3];
     let mut work = 0;
@@ -60,7 +68,7 @@ fn cast(m: &Model, d: &mut Fields, ray: &Ray, f: &Frame, in_image: bool, mask: i
 }
 
 /// The optics of a camera, in pixels.
-struct Camera {
+struct CameraOptics {
     resolution: [usize; 2],
     /// Focal lengths.
     focal: [f64; 2],
@@ -72,8 +80,8 @@ struct Camera {
     extent: Option<f64>,
 }
 
-impl Camera {
-    fn from_model(m: &Model, id: usize) -> Camera {
+impl CameraOptics {
+    fn from_model(m: &Model, id: usize) -> CameraOptics {
         let size = rows::<2>(&m.cam_sensorsize)[id];
         let [fx, fy, px, py] = rows::<4>(&m.cam_intrinsic)[id];
         // An image with a negative size has no pixels.
@@ -90,7 +98,7 @@ impl Camera {
             let f = 0.5 / libm::tan(m.cam_fovy[id] * std::f64::consts::PI / 360.0) * height;
             ([f, f], [width / 2.0, height / 2.0], [0.0; 2])
         };
-        Camera {
+        CameraOptics {
             resolution,
             focal,
             principal,
@@ -100,16 +108,16 @@ impl Camera {
     }
 
     /// The ray through the centre of a pixel, for a camera with the frame `f`.
-    fn ray(&self, f: &Frame, row: usize, col: usize) -> Ray {
+    fn ray(&self, f: &ObjectFrame, row: usize, col: usize) -> SensorRay {
         let (u, v) = (col as f64 + 0.5, row as f64 + 0.5);
         if let Some(extent) = self.extent {
             let [width, height] = self.resolution.map(|n| n as f64);
             let from = [(u / width - 0.5) * extent, (0.5 - v / height) * extent, 0.0];
             let along = scale(column(&f.mat, 2), -1.0);
-            return Ray { from: add(f.pos, mat_mul_vec(&f.mat, from)), along };
+            return SensorRay { from: add(f.pos, mat_mul_vec(&f.mat, from)), along };
         }
         let local = [(u - self.principal[0]) / self.focal[0], -(v - self.principal[1]) / self.focal[1], -1.0];
-        Ray { from: f.pos, along: normalize(mat_mul_vec(&f.mat, local)).0 }
+        SensorRay { from: f.pos, along: normalize(mat_mul_vec(&f.mat, local)).0 }
     }
 }
 
@@ -123,7 +131,7 @@ pub(super) fn camera_projection(m: &Model, d: &mut Fields, s: usize, out: &mut [
         return;
     };
     let Some(f) = object::frame(m, d, Obj::Camera as i32, id) else { return };
-    let camera = Camera::from_model(m, id);
+    let camera = CameraOptics::from_model(m, id);
     let [x, y, z] = mat_t_mul_vec(&f.mat, sub(rows::<3>(&d.site_xpos)[site], f.pos));
     // A point in the plane of the camera has no image: its pixel is placed far outside.
     let depth = if z.abs() < MINVAL { MINVAL.copysign(z) } else { z };

@@ -4,7 +4,7 @@
 //! The compiler, the evaluation, the plan and the schema are generated from this table. Order and numbers are those
 //! of mjtSensor; the meaning follows MuJoCo's XML reference, chapter "sensor".
 
-use super::Scratch;
+use super::SensorScratch;
 use super::contact_sensor;
 use super::frame_sensor;
 use super::measure;
@@ -82,12 +82,12 @@ pub enum SensorStage {
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Read {
     Of(fn(&Model, &mut Fields, usize, &mut [f64])),
-    With(fn(&Model, &mut Fields, &mut Scratch, usize, &mut [f64])),
+    With(fn(&Model, &mut Fields, &mut SensorScratch, usize, &mut [f64])),
 }
 
 /// A row of the table.
 #[derive(Debug)]
-pub struct Kind {
+pub struct SensorKind {
     /// The element in MJCF.
     pub name: &'static str,
     /// What it senses.
@@ -116,7 +116,7 @@ macro_rules! kinds {
             $(pub(crate) const $id: i32 = Number::$id as i32;)*
         }
         /// All kinds of sensors, by their number.
-        pub static KINDS: [Kind; [$($name),*].len()] = [$(Kind {
+        pub static KINDS: [SensorKind; [$($name),*].len()] = [$(SensorKind {
             name: $name,
             senses: SensorTarget::$senses,
             dim: $dim,
@@ -181,7 +181,7 @@ kinds! {
 }
 
 /// The row of sensor `s`. An unknown type counts as a user sensor, for which nothing is measured: its values are zero.
-pub fn for_sensor(m: &Model, s: usize) -> &'static Kind {
+pub fn for_sensor(m: &Model, s: usize) -> &'static SensorKind {
     let number = usize::try_from(m.sensor_type[s]).unwrap_or(usize::MAX);
     KINDS.get(number).unwrap_or(&KINDS[Number::USER as usize])
 }

@@ -4,7 +4,7 @@
 //! stored a delay ago; a sensor with an interval reports the last reading. The first slot of the buffer contains the
 //! time of the last tick of the interval. Readings follow the ticks as closely as the timesteps allow.
 
-use super::Scratch;
+use super::SensorScratch;
 use super::table::for_sensor;
 use crate::dynamics::subtree;
 use crate::forces::history;
@@ -43,7 +43,7 @@ pub(super) fn past(m: &Model, d: &Fields, s: usize, out: &mut [f64]) -> bool {
 ///
 /// After a Runge–Kutta step, the poses of bodies are those of the last stage. The stored values are then the same as
 /// in MuJoCo: the state at the start of the step, evaluated with the poses and forces of the last stage.
-pub(crate) fn record(m: &Model, d: &mut Fields, w: &mut Scratch) {
+pub(crate) fn record(m: &Model, d: &mut Fields, w: &mut SensorScratch) {
     let delayed = |s: &usize| m.sensor_delay[*s] > 0.0 && m.sensor_history[2 * s] > 0;
     if integrator::many_stages(m.opt.integrator) {
         let needs = |stage| (0..m.nsensor).filter(delayed).any(|s| for_sensor(m, s).needs.contains(&stage));

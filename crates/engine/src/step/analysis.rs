@@ -95,7 +95,7 @@ pub(super) struct ModelAnalysis<'a> {
     /// There are actuators, and the force of all of them is zero.
     pub(super) idle: bool,
     pub(super) sensors: bool,
-    /// Sensors are evaluated although nobody reads them: those with buffers, which are part of the state, and those of energies,
+    /// Sensors are evaluated even if nothing reads them: those with buffers, which are part of the state, and those of energies,
     /// whose results are also in `energy`.
     pub(super) every_sensor: bool,
     pub(super) energy: bool,
@@ -236,8 +236,8 @@ impl<'a> ModelAnalysis<'a> {
     }
 
     /// Whether at least one of these numbers is not zero, or may become so.
-    pub(super) fn has_nonzero(&self, of: &[Numbers]) -> bool {
-        of.iter().any(|numbers| self.count_nonzero(numbers) > 0)
+    pub(super) fn has_nonzero(&self, groups: &[Numbers]) -> bool {
+        groups.iter().any(|numbers| self.count_nonzero(numbers) > 0)
     }
 
     /// The number of these numbers that are not zero, or may become so.

@@ -1,7 +1,7 @@
 //! The mechanical energy of a scene: kinetic energy, and potential energy of gravity, springs and servos.
 
 use super::forward;
-use super::workspace::Scratch;
+use super::workspace::StepScratch;
 use crate::dynamics::reflected::tendons_have_inertia;
 use crate::dynamics::{kinetic, mass};
 use crate::forces::passive::spring;
@@ -30,7 +30,7 @@ impl Energy {
 
 /// The energy at `qpos` and `qvel`, for the current controls. `None` if an actuator has no potential, because it may add energy.
 /// Computes poses and lengths only.
-pub fn mechanical_energy(m: &Model, d: &mut Fields, s: &mut Scratch) -> Option<Energy> {
+pub fn mechanical_energy(m: &Model, d: &mut Fields, s: &mut StepScratch) -> Option<Energy> {
     forward::update_positions(m, d, s);
     transmission::transmissions(m, d, &mut s.forces);
     energy_of_poses(m, d, s)
@@ -54,7 +54,7 @@ pub fn energy_of_poses(m: &Model, d: &mut Fields, s: &mut Scratch) -> Option<Ene
 /// The time grows with the number of bodies, while M has up to nv² elements. Two cases need M itself. M of simple bodies is
 /// constant: it does not follow `body_mass` until constants are recomputed. M contains the inertia of a tendon only where its
 /// sparsity pattern has an element.
-fn kinetic(m: &Model, d: &mut Fields, s: &mut Scratch) -> f64 {
+fn kinetic(m: &Model, d: &mut Fields, s: &mut StepScratch) -> f64 {
     if tendons_have_inertia(m) {
         forward::mass_matrix(m, d, s);
         return 0.5 * mass::quadratic(m, &d.M, &d.qvel);

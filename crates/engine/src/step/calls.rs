@@ -9,7 +9,7 @@ use crate::model::plan::PlanFlag;
 use crate::model::stage::Stage;
 use crate::model::{Fields, Model, Warning};
 use crate::sensor::body_force;
-use crate::step::workspace::Scratch;
+use crate::step::workspace::StepScratch;
 use crate::{collision, constraint, sensor};
 
 pub(super) fn cameras_and_lights(m: &Model, d: &mut Fields) {
@@ -25,27 +25,27 @@ pub(super) fn tendons(m: &Model, d: &mut Fields) {
 }
 
 /// Computes `M`, except the parts that are postponed to steps with active constraints.
-pub(super) fn mass_matrix(m: &Model, d: &mut Fields, s: &mut Scratch) {
+pub(super) fn mass_matrix(m: &Model, d: &mut Fields, s: &mut StepScratch) {
     let rows = !d.plan.has(PlanFlag::MassForRows);
     fill_mass_matrix(m, d, s, d.plan.has(PlanFlag::Composite) && rows, rows);
 }
 
 /// Computes `M`, with or without the rows of the general tree algorithm, and those of the algorithms that postpone them.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(super) fn fill_mass_matrix(m: &Model, d: &mut Fields, s: &mut Scratch, general: bool, rows: bool) {
+pub(super) fn fill_mass_matrix(m: &Model, d: &mut Fields, s: &mut StepScratch, general: bool, rows: bool) {
     tree_algorithms::mass(m, d, &mut s.dynamics, general, rows);
     if m.ntendon > 0 {
         tendon::armature(m, d);
     }
 }
 
-pub(super) fn factor(m: &Model, d: &mut Fields, s: &mut Scratch) {
+pub(super) fn factor(m: &Model, d: &mut Fields, s: &mut StepScratch) {
     if !d.plan.has(PlanFlag::MassForRows) {
         refactor(m, d, s);
     }
 }
 
-fn refactor(m: &Model, d: &mut Fields, s: &mut Scratch) {
+fn refactor(m: &Model, d: &mut Fields, s: &mut StepScratch) {
     let bad = tree_algorithms::factor(m, d, &mut s.dynamics);
     check_inertia(d, bad);
 }
@@ -57,7 +57,7 @@ fn check_inertia(d: &mut Fields, bad: Option<usize>) {
     }
 }
 
-pub(super) fn collide(m: &Model, d: &mut Fields, s: &mut Scratch) {
+pub(super) fn collide(m: &Model, d: &mut Fields, s: &mut StepScratch) {
     if m.opt.disabled(disable::CONSTRAINT) || m.opt.disabled(disable::CONTACT) || d.meter.over() {
         return collision::none(d);
     }
@@ -67,7 +67,7 @@ pub(super) fn collide(m: &Model, d: &mut Fields, s: &mut Scratch) {
     }
 }
 
-pub(super) fn make_constraints(m: &Model, d: &mut Fields, s: &mut Scratch) {
+pub(super) fn make_constraints(m: &Model, d: &mut Fields, s: &mut StepScratch) {
     if d.plan.keeps(Stage::Sleep) {
         sleep::wake_by_equalities(m, d);
     }
@@ -81,7 +81,7 @@ pub(super) fn make_constraints(m: &Model, d: &mut Fields, s: &mut Scratch) {
     }
 }
 
-pub(super) fn bias(m: &Model, d: &mut Fields, s: &mut Scratch) {
+pub(super) fn bias(m: &Model, d: &mut Fields, s: &mut StepScratch) {
     tree_algorithms::bias(m, d, &mut s.dynamics);
     if m.ntendon > 0 {
         tendon::bias(m, d);
@@ -89,7 +89,7 @@ pub(super) fn bias(m: &Model, d: &mut Fields, s: &mut Scratch) {
 }
 
 /// `qfrc_smooth` and `qacc_smooth` = M⁻¹ `qfrc_smooth`. Also `qacc`, if no constraint can be active.
-pub(super) fn acceleration(m: &Model, d: &mut Fields, s: &mut Scratch) {
+pub(super) fn acceleration(m: &Model, d: &mut Fields, s: &mut StepScratch) {
     if d.plan.has(PlanFlag::Ballistic) && m.opt.integrator != integrator::DISCRETE {
         ballistic(d);
     } else {
@@ -98,7 +98,7 @@ pub(super) fn acceleration(m: &Model, d: &mut Fields, s: &mut Scratch) {
 }
 
 #[cfg_attr(not(feature = "small"), inline(never))]
-fn accelerate(m: &Model, d: &mut Fields, s: &mut Scratch) {
+fn accelerate(m: &Model, d: &mut Fields, s: &mut StepScratch) {
     if d.plan.has(PlanFlag::Unforced) {
         combine(&mut d.qfrc_smooth, [&*d.qfrc_bias], |_, [bias]| 0.0 - bias);
     } else {
@@ -161,7 +161,7 @@ fn applied_forces(m: &Model, d: &mut Fields) {
 }
 
 /// `qacc` and constraint forces.
-pub(super) fn solve(m: &Model, d: &mut Fields, s: &mut Scratch) {
+pub(super) fn solve(m: &Model, d: &mut Fields, s: &mut StepScratch) {
     if m.opt.integrator == integrator::DISCRETE {
         discrete::constraints(m, d, s);
     } else {
@@ -172,7 +172,7 @@ pub(super) fn solve(m: &Model, d: &mut Fields, s: &mut Scratch) {
 
 /// Adds the gyroscopic correction of the discrete integrator to `qacc` of free bodies.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn add_gyroscopic_correction(m: &Model, d: &mut Fields, s: &mut Scratch) {
+fn add_gyroscopic_correction(m: &Model, d: &mut Fields, s: &mut StepScratch) {
     if m.opt.integrator == integrator::DISCRETE {
         discrete::add_gyroscopic_correction(m, d, s);
     }
@@ -198,7 +198,7 @@ fn measured(m: &Model, stage: Stage) -> bool {
 }
 
 /// Computes `energy[0]`. Sets zeros if the flag is off and no sensor has computed the energy in this pass.
-pub(super) fn potential_energy(m: &Model, d: &mut Fields, s: &mut Scratch) {
+pub(super) fn potential_energy(m: &Model, d: &mut Fields, s: &mut StepScratch) {
     if m.opt.enabled(enable::ENERGY) {
         energy::potential(m, d);
     } else if s.unseen || m.opt.disabled(disable::SENSOR) || !sensor::measures_potential(m) {

@@ -3,10 +3,10 @@
 
 use crate::model::stage::Stage;
 use crate::model::{Fields, Model};
-use crate::step::workspace::Scratch;
+use crate::step::workspace::StepScratch;
 
 /// The function of a stage: it reads the model, and writes the fields and the scratch.
-pub(super) type Run = fn(&Model, &mut Fields, &mut Scratch);
+pub(super) type Run = fn(&Model, &mut Fields, &mut StepScratch);
 
 /// The bit of a pass that is run with time measurement.
 pub(super) const CLOCKED: u32 = 1 << 31;
@@ -20,7 +20,7 @@ pub(super) fn walk(
     stages: &[Option<Stage>],
     m: &Model,
     d: &mut Fields,
-    s: &mut Scratch,
+    s: &mut StepScratch,
     bits: u32,
 ) {
     if let Some(watch) = &mut s.watch {
@@ -36,15 +36,15 @@ pub(super) fn walk(
 
 /// Runs one stage, or an empty call, between two readings of the clock.
 #[inline(never)]
-fn lap(run: Run, stage: Option<Stage>, m: &Model, d: &mut Fields, s: &mut Scratch) {
+fn lap(run: Run, stage: Option<Stage>, m: &Model, d: &mut Fields, s: &mut StepScratch) {
     let clock = s.watch.as_ref().map(|watch| watch.clock);
     let before = clock.map(|clock| (d.meter.cost, clock()));
     run(m, d, s);
-    let now = clock.map(|clock| clock());
-    if let (Some(watch), Some((work, time)), Some(now)) = (&mut s.watch, before, now) {
-        watch.laps.add(stage, now.saturating_sub(time), d.meter.cost.saturating_sub(work));
+    let current = clock.map(|clock| clock());
+    if let (Some(watch), Some((work, time)), Some(current)) = (&mut s.watch, before, current) {
+        watch.laps.add(stage, current.saturating_sub(time), d.meter.cost.saturating_sub(work));
     }
 }
 
 /// Does nothing.
-pub(super) fn nothing(_: &Model, _: &mut Fields, _: &mut Scratch) {}
+pub(super) fn nothing(_: &Model, _: &mut Fields, _: &mut StepScratch) {}

@@ -8,11 +8,11 @@ use crate::model::plan::PlanFlag;
 use crate::model::stage::Stage;
 use crate::model::{Fields, Model};
 use crate::step::stages::Damping;
-use crate::step::workspace::Scratch;
+use crate::step::workspace::StepScratch;
 
 /// The acceleration a'.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(super) fn damp(m: &Model, d: &Fields, s: &mut Scratch) {
+pub(super) fn damp(m: &Model, d: &Fields, s: &mut StepScratch) {
     let Damping { qacc: a, b, .. } = &mut s.damping;
     combine(a, [&*d.qfrc_smooth, &*d.qfrc_constraint], |_, [smooth, constraint]| smooth + constraint);
     damping(m, d, b);
@@ -24,7 +24,7 @@ pub(super) fn damp(m: &Model, d: &Fields, s: &mut Scratch) {
 pub(super) fn accelerate(
     m: &Model,
     d: &mut Fields,
-    s: &mut Scratch,
+    s: &mut StepScratch,
     acceleration: &mut [f64],
 ) -> Option<usize> {
     let Damping { qacc: a, b, done } = &mut s.damping;

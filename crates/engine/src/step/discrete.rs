@@ -9,13 +9,13 @@
 //! metric. It replaces M in the dynamics of this integrator.
 
 use super::metric::Metric;
-use super::workspace::Scratch;
+use super::workspace::StepScratch;
 use crate::constraint;
 use crate::math::{Spatial, dot, solve_six};
 use crate::model::{Fields, Model, asleep};
 
 /// `qacc_smooth`.
-pub(crate) fn acceleration(m: &Model, d: &mut Fields, s: &mut Scratch) {
+pub(crate) fn acceleration(m: &Model, d: &mut Fields, s: &mut StepScratch) {
     let mut out = std::mem::take(&mut d.qacc_smooth);
     s.metric.build(m, d, &mut s.derivative);
     s.metric.solve(m, d, &mut out);
@@ -23,8 +23,8 @@ pub(crate) fn acceleration(m: &Model, d: &mut Fields, s: &mut Scratch) {
 }
 
 /// For free rigid bodies that are not coupled with others, adds the derivative of the gyroscopic force to `qacc`.
-pub(crate) fn add_gyroscopic_correction(m: &Model, d: &mut Fields, s: &mut Scratch) {
-    let Scratch { metric: w, derivative: slopes, constraint: rows, .. } = s;
+pub(crate) fn add_gyroscopic_correction(m: &Model, d: &mut Fields, s: &mut StepScratch) {
+    let StepScratch { metric: w, derivative: slopes, constraint: rows, .. } = s;
     for tree in 0..m.ntree {
         if asleep::tree(m, d, tree) {
             continue;
@@ -39,8 +39,8 @@ pub(crate) fn add_gyroscopic_correction(m: &Model, d: &mut Fields, s: &mut Scrat
 }
 
 /// Adds to `qfrc_inverse` the product of `qacc` with the metric minus M, and h K v.
-pub(crate) fn add_to_inverse(m: &Model, d: &mut Fields, s: &mut Scratch) {
-    let Scratch { metric: w, derivative: slopes, constraint: rows, .. } = s;
+pub(crate) fn add_to_inverse(m: &Model, d: &mut Fields, s: &mut StepScratch) {
+    let StepScratch { metric: w, derivative: slopes, constraint: rows, .. } = s;
     w.build(m, d, slopes);
     w.search.copy_from_slice(&d.qacc);
     w.multiply(m, d);
@@ -59,21 +59,21 @@ pub(crate) fn add_to_inverse(m: &Model, d: &mut Fields, s: &mut Scratch) {
 }
 
 /// Sets the constraint rows for the end of the step, for inverse dynamics, in which the metric is not yet available.
-pub(crate) fn prepare_inverse(m: &Model, d: &mut Fields, s: &mut Scratch) {
-    let Scratch { metric: w, derivative: slopes, constraint: rows, .. } = s;
+pub(crate) fn prepare_inverse(m: &Model, d: &mut Fields, s: &mut StepScratch) {
+    let StepScratch { metric: w, derivative: slopes, constraint: rows, .. } = s;
     w.build(m, d, slopes);
     constraint::at_end_of_step(m, d, rows, &w.diagonal);
 }
 
 /// `qacc` and constraint forces, with the metric that [`acceleration`] has built. The terms of the metric are additional rows.
-pub(crate) fn constraints(m: &Model, d: &mut Fields, s: &mut Scratch) {
-    let Scratch { metric: w, constraint: rows, dynamics: trees, .. } = s;
+pub(crate) fn constraints(m: &Model, d: &mut Fields, s: &mut StepScratch) {
+    let StepScratch { metric: w, constraint: rows, dynamics: trees, .. } = s;
     if d.nefc > 0 {
         constraint::at_end_of_step(m, d, rows, &w.diagonal);
     }
     let row_count = d.nefc;
-    let apart = row_count > 0 && !w.terms.is_empty();
-    if apart {
+    let separate_terms = row_count > 0 && !w.terms.is_empty();
+    if separate_terms {
         for term in &w.terms {
             let (dofs, values) = term.row.jacobian(m, d);
             w.columns.clear();
@@ -87,7 +87,7 @@ pub(crate) fn constraints(m: &Model, d: &mut Fields, s: &mut Scratch) {
     exchange_metric(d, w);
     constraint::solve(m, d, rows, trees);
     exchange_metric(d, w);
-    if apart {
+    if separate_terms {
         constraint::pop_metric(d, rows, row_count);
         std::mem::swap(&mut w.other, &mut d.qacc_smooth);
         constraint::unconstrained_residual(d, &rows.jac);

@@ -9,7 +9,7 @@ use crate::math::Spatial;
 use crate::model::plan::PlanTable;
 use crate::model::{Fields, Model};
 use crate::sensor::{self, SensorStage};
-use crate::step::workspace::Scratch;
+use crate::step::workspace::StepScratch;
 use crate::step::{calls, forward};
 use crate::step::{damping, discrete};
 
@@ -35,7 +35,7 @@ impl std::error::Error for InverseError {}
 ///
 /// All fields of position and velocity, the constraint forces and the sensors are computed, whatever the plan
 /// contains.
-pub fn inverse(m: &Model, d: &mut Fields, s: &mut Scratch) -> Result<(), InverseError> {
+pub fn inverse(m: &Model, d: &mut Fields, s: &mut StepScratch) -> Result<(), InverseError> {
     if m.opt.enabled(enable::INVDISCRETE) && integrator::many_stages(m.opt.integrator) {
         return Err(InverseError::RungeKutta);
     }
@@ -47,7 +47,7 @@ pub fn inverse(m: &Model, d: &mut Fields, s: &mut Scratch) -> Result<(), Inverse
 }
 
 /// Like [`inverse`], after the position and velocity stages.
-fn from_velocity(m: &Model, d: &mut Fields, s: &mut Scratch) {
+fn from_velocity(m: &Model, d: &mut Fields, s: &mut StepScratch) {
     let mut given = std::mem::take(&mut s.rk.slope);
     given.copy_from_slice(&d.qacc);
     if m.opt.enabled(enable::INVDISCRETE) {
@@ -74,7 +74,7 @@ fn from_velocity(m: &Model, d: &mut Fields, s: &mut Scratch) {
 
 /// Converts `qacc` of a step to the acceleration of the equations of motion, by including the terms that the integrator adds to
 /// M.
-fn continuous(m: &Model, d: &mut Fields, s: &mut Scratch) {
+fn continuous(m: &Model, d: &mut Fields, s: &mut StepScratch) {
     let (h, force, w) = (m.opt.timestep, &mut s.damping.qacc, &mut s.derivative);
     match m.opt.integrator {
         integrator::EULER => {

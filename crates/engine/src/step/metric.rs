@@ -43,7 +43,7 @@ pub(crate) struct Metric {
 
 /// A tendon, or a force output of an actuator.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Row {
+pub(super) enum MetricRow {
     Tendon(usize),
     Output(usize),
 }
@@ -51,19 +51,19 @@ pub(super) enum Row {
 /// The term s r rᵀ, for the Jacobian r of the length of a row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Term {
-    pub(super) row: Row,
+    pub(super) row: MetricRow,
     pub(super) scale: f64,
 }
 
-impl Row {
+impl MetricRow {
     /// The degrees of freedom, ascending, and the values.
     pub(super) fn jacobian<'a>(self, m: &'a Model, d: &'a Fields) -> (&'a [i32], &'a [f64]) {
         match self {
-            Row::Tendon(t) => {
+            MetricRow::Tendon(t) => {
                 let row = tendon::row(m, t);
                 (&m.ten_J_colind[row.clone()], &d.ten_J[row])
             }
-            Row::Output(o) => {
+            MetricRow::Output(o) => {
                 let row = d.moment_rowadr[o] as usize..(d.moment_rowadr[o] + d.moment_rownnz[o]) as usize;
                 (&d.moment_colind[row.clone()], &d.actuator_moment[row])
             }
@@ -173,7 +173,7 @@ impl Metric {
             if !m.opt.disabled(disable::DAMPER) {
                 damping = spring::tendon_damper(m, t).slope(d.ten_velocity[t].abs());
             }
-            self.add(m, d, Row::Tendon(t), stiffness, damping, d.ten_velocity[t]);
+            self.add(m, d, MetricRow::Tendon(t), stiffness, damping, d.ten_velocity[t]);
         }
     }
 
@@ -185,13 +185,20 @@ impl Metric {
             let slopes = actuator_slope::slopes(m, d, i);
             let first = m.actuator_outadr[i] as usize;
             for o in first..first + m.actuator_outnum[i] as usize {
-                self.add(m, d, Row::Output(o), -slopes.length, -slopes.velocity, d.actuator_velocity[o]);
+                self.add(
+                    m,
+                    d,
+                    MetricRow::Output(o),
+                    -slopes.length,
+                    -slopes.velocity,
+                    d.actuator_velocity[o],
+                );
             }
         }
     }
 
     /// Adds a spring and a damper along a row whose length changes with `velocity`.
-    fn add(&mut self, m: &Model, d: &Fields, row: Row, stiffness: f64, damping: f64, velocity: f64) {
+    fn add(&mut self, m: &Model, d: &Fields, row: MetricRow, stiffness: f64, damping: f64, velocity: f64) {
         let (h, k, b) = (m.opt.timestep, stiffness.max(0.0), damping.max(0.0));
         let scale = h * h * k + h * b;
         let (dofs, values) = row.jacobian(m, d);
@@ -227,17 +234,17 @@ impl Metric {
             }
             self.step.copy_from_slice(&self.residual);
             mass::solve(m, &self.ld, &self.diag_inv, &mut self.step, 0..m.nv);
-            let now = dot_slice(&self.residual, &self.step);
+            let current = dot_slice(&self.residual, &self.step);
             for (p, z) in self.search.iter_mut().zip(&self.step) {
-                *p = z + now / before * *p;
+                *p = z + current / before * *p;
             }
-            before = now;
+            before = current;
             self.multiply(m, d);
             let curvature = dot_slice(&self.search, &self.product);
-            if now <= 0.0 || curvature <= 0.0 {
+            if current <= 0.0 || curvature <= 0.0 {
                 break;
             }
-            let alpha = now / curvature;
+            let alpha = current / curvature;
             for i in 0..m.nv {
                 x[i] += alpha * self.search[i];
                 self.residual[i] -= alpha * self.product[i];
@@ -252,7 +259,7 @@ impl Metric {
         m: &Model,
         d: &Fields,
         slopes: &mut derivative::Work,
-        rows: &constraint::Scratch,
+        rows: &constraint::ConstraintScratch,
         tree: usize,
     ) -> Option<(usize, [Spatial; 6])> {
         let first = m.tree_dofadr[tree] as usize;

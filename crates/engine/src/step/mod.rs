@@ -31,14 +31,14 @@ pub mod workspace;
 use crate::kinds::disable;
 use crate::math::{LARGEST, SMALL, bad};
 use crate::model::{Fields, Model, Warning, WarningStat};
-use crate::step::workspace::Scratch;
+use crate::step::workspace::StepScratch;
 use wide::f64x4;
 
 /// Advances the simulation by one step (`mj_step`).
 ///
 /// A bad number in the state resets the data before the step. A bad number in the acceleration resets the data, and the same step
 /// then starts from the reset state. `warning` records the kind of bad number and when it occurred.
-pub fn step(m: &Model, d: &mut Fields, s: &mut Scratch) {
+pub fn step(m: &Model, d: &mut Fields, s: &mut StepScratch) {
     check_state(m, d, s);
     forward::from_state(m, d, s);
     forward::from_inputs(m, d, s);
@@ -48,14 +48,14 @@ pub fn step(m: &Model, d: &mut Fields, s: &mut Scratch) {
 
 /// The first part of a step (`mj_step1`): everything that does not depend on inputs. Controls and applied forces may be
 /// set between the two parts.
-pub fn step1(m: &Model, d: &mut Fields, s: &mut Scratch) {
+pub fn step1(m: &Model, d: &mut Fields, s: &mut StepScratch) {
     check_state(m, d, s);
     forward::from_state(m, d, s);
 }
 
 /// The second part of a step (`mj_step2`): forces, accelerations, the next state. Runge–Kutta methods need forces at other
 /// states; if the options name one, this function makes a semi-implicit Euler step.
-pub fn step2(m: &Model, d: &mut Fields, s: &mut Scratch) {
+pub fn step2(m: &Model, d: &mut Fields, s: &mut StepScratch) {
     forward::from_inputs(m, d, s);
     check_acceleration(m, d, s);
     integrate::integrate_once(m, d, s);
@@ -80,11 +80,11 @@ fn none_bad(v: &[f64]) -> bool {
 fn reset_after(
     m: &Model,
     d: &mut Fields,
-    s: &mut Scratch,
+    s: &mut StepScratch,
     warning: Warning,
-    of: fn(&Fields) -> &[f64],
+    field: fn(&Fields) -> &[f64],
 ) -> bool {
-    let Some(info) = of(d).iter().position(|&x| bad(x)) else { return false };
+    let Some(info) = field(d).iter().position(|&x| bad(x)) else { return false };
     d.warn(warning, info);
     if m.opt.disabled(disable::AUTORESET) {
         // MuJoCo counts a warning twice if it does not reset.
@@ -98,7 +98,7 @@ fn reset_after(
 }
 
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn check_state(m: &Model, d: &mut Fields, s: &mut Scratch) {
+fn check_state(m: &Model, d: &mut Fields, s: &mut StepScratch) {
     if !none_bad(&d.qpos) {
         reset_after(m, d, s, Warning::BadQpos, |d| &d.qpos);
     }
@@ -108,7 +108,7 @@ fn check_state(m: &Model, d: &mut Fields, s: &mut Scratch) {
 }
 
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn check_acceleration(m: &Model, d: &mut Fields, s: &mut Scratch) {
+fn check_acceleration(m: &Model, d: &mut Fields, s: &mut StepScratch) {
     if !none_bad(&d.qacc) && reset_after(m, d, s, Warning::BadQacc, |d| &d.qacc) {
         forward::forward(m, d, s);
     }

@@ -32,24 +32,24 @@ pub(super) enum PassPart {
 type Need = (&'static [Stage], fn(&ModelAnalysis, Stage) -> bool);
 
 /// A stage.
-pub(super) struct Row {
+pub(super) struct PipelineRow {
     pub(super) stage: Stage,
     /// The name for people, before "stage".
     pub(super) name: &'static str,
     pub(super) needs: &'static [Need],
     /// The reason to run the stage even if no later stage needs it.
-    pub(super) wanted: fn(&ModelAnalysis) -> Option<String>,
+    pub(super) keep_reason: fn(&ModelAnalysis) -> Option<String>,
     /// The reason why the stage does not run if nothing needs it.
-    pub(super) left_out: fn(&ModelAnalysis) -> &'static str,
+    pub(super) omit_reason: fn(&ModelAnalysis) -> &'static str,
     pub(super) run: &'static [(PassPart, Run)],
 }
 
-impl Row {
+impl PipelineRow {
     /// Whether the stage uses the results of another one in a scene.
-    pub(super) fn uses(&self, analysis: &ModelAnalysis, of: Stage) -> bool {
+    pub(super) fn uses(&self, analysis: &ModelAnalysis, stage: Stage) -> bool {
         self.needs
             .iter()
-            .any(|(stages, when)| (stages.is_empty() || stages.contains(&of)) && when(analysis, of))
+            .any(|(stages, when)| (stages.is_empty() || stages.contains(&stage)) && when(analysis, stage))
     }
 }
 
@@ -61,73 +61,73 @@ fn reason_if(yes: bool, why: &str) -> Option<String> {
 }
 
 /// The stages, in their order.
-pub(super) const STAGES: [Row; 26] = [
-    Row {
+pub(super) const STAGES: [PipelineRow; 26] = [
+    PipelineRow {
         stage: Stage::Sleep,
         name: "sleep",
         needs: &[],
-        wanted: |s| reason_if(s.sleeps, "trees at rest fall asleep"),
-        left_out: |s| if s.m.ntree == 0 { "nothing can move" } else { "the sleep flag is off" },
+        keep_reason: |s| reason_if(s.sleeps, "trees at rest fall asleep"),
+        omit_reason: |s| if s.m.ntree == 0 { "nothing can move" } else { "the sleep flag is off" },
         run: &[
             (PassPart::Positions, |m, d, s| sleep::wake(m, d, &mut s.sleep)),
             (PassPart::Inputs, |m, d, s| sleep::keep(m, d, &mut s.sleep)),
         ],
     },
-    Row {
+    PipelineRow {
         stage: Stage::Kinematics,
         name: "kinematics",
         needs: &[],
-        wanted: |s| s.reads(Stage::Kinematics),
-        left_out: |_| "nothing can touch and nothing reads a pose",
+        keep_reason: |s| s.reads(Stage::Kinematics),
+        omit_reason: |_| "nothing can touch and nothing reads a pose",
         run: &[(PassPart::Positions, |m, d, s| tree_algorithms::forward_kinematics(m, d, &mut s.dynamics))],
     },
-    Row {
+    PipelineRow {
         stage: Stage::Orientations,
         name: "orientation",
         needs: &[(&[Stage::Kinematics], ALWAYS)],
-        wanted: |s| s.reads(Stage::Orientations),
-        left_out: |_| "nothing reads an orientation as a quaternion",
+        keep_reason: |s| s.reads(Stage::Orientations),
+        omit_reason: |_| "nothing reads an orientation as a quaternion",
         run: &[(PassPart::Positions, |_, d, s| tree_algorithms::orientations(d, &mut s.dynamics))],
     },
-    Row {
+    PipelineRow {
         stage: Stage::GeomPoses,
         name: "geom-pose",
         needs: &[(&[Stage::Kinematics], ALWAYS)],
-        wanted: |s| s.reads(Stage::GeomPoses),
-        left_out: |_| "no contact is possible and nothing reads a geom's pose",
+        keep_reason: |s| s.reads(Stage::GeomPoses),
+        omit_reason: |_| "no contact is possible and nothing reads a geom's pose",
         run: &[(PassPart::Positions, |m, d, _| kinematics::geoms(m, d))],
     },
-    Row {
+    PipelineRow {
         stage: Stage::SitePoses,
         name: "site-pose",
         needs: &[(&[Stage::Kinematics], ALWAYS)],
-        wanted: |s| s.reads(Stage::SitePoses),
-        left_out: |s| match s.m.nsite {
+        keep_reason: |s| s.reads(Stage::SitePoses),
+        omit_reason: |s| match s.m.nsite {
             0 => "the model has no sites",
             _ => "nothing reads a site's pose",
         },
         run: &[(PassPart::Positions, |m, d, _| kinematics::sites(m, d))],
     },
-    Row {
+    PipelineRow {
         stage: Stage::ComPos,
         name: "centre-of-mass",
         needs: &[(&[Stage::Kinematics], ALWAYS)],
-        wanted: |s| s.reads(Stage::ComPos),
-        left_out: |_| NO_SPATIAL_BODIES,
+        keep_reason: |s| s.reads(Stage::ComPos),
+        omit_reason: |_| NO_SPATIAL_BODIES,
         run: &[(PassPart::Positions, |m, d, _| com::com_pos(m, d))],
     },
-    Row {
+    PipelineRow {
         stage: Stage::CameraPoses,
         name: "camera-pose",
         needs: &[(&[Stage::Orientations, Stage::ComPos], ALWAYS)],
-        wanted: |s| s.reads(Stage::CameraPoses),
-        left_out: |s| match s.m.ncam + s.m.nlight {
+        keep_reason: |s| s.reads(Stage::CameraPoses),
+        omit_reason: |s| match s.m.ncam + s.m.nlight {
             0 => "the model has no cameras and lights",
             _ => "nothing reads the pose of a camera or light",
         },
         run: &[(PassPart::Positions, |m, d, _| calls::cameras_and_lights(m, d))],
     },
-    Row {
+    PipelineRow {
         stage: Stage::Tendon,
         name: "tendon",
         needs: &[
@@ -135,15 +135,15 @@ pub(super) const STAGES: [Row; 26] = [
             (&[Stage::SitePoses], |s, _| s.m.wrap_type.contains(&wraptype::SITE)),
             (&[Stage::GeomPoses], |s, _| s.m.wrap_type.iter().any(|&t| t > wraptype::SITE)),
         ],
-        wanted: |s| {
+        keep_reason: |s| {
             let wakes = s.sleeps && s.m.tendon_limited.contains(&true);
             s.reads(Stage::Tendon)
                 .or_else(|| reason_if(wakes, "tendons at their limits wake the trees that they connect"))
         },
-        left_out: without_tendons,
+        omit_reason: without_tendons,
         run: &[(PassPart::Positions, |m, d, _| calls::tendons(m, d))],
     },
-    Row {
+    PipelineRow {
         stage: Stage::MassMatrix,
         name: "mass-matrix",
         needs: &[
@@ -151,27 +151,27 @@ pub(super) const STAGES: [Row; 26] = [
             (&[Stage::Tendon], |s, _| s.tendon_armature),
         ],
         // Constant if all bodies are simple: only the composite inertias would be computed.
-        wanted: |s| match s.general {
+        keep_reason: |s| match s.general {
             true => Some(MOVING_MASS.into()),
             false => reason_if(s.reads_field(data::crb), "data.crb is read"),
         },
-        left_out: |_| CONSTANT_MASS,
+        omit_reason: |_| CONSTANT_MASS,
         run: &[(PassPart::Positions, calls::mass_matrix)],
     },
-    Row {
+    PipelineRow {
         stage: Stage::Factor,
         name: "factorization",
         needs: &[],
-        wanted: |s| reason_if(s.general, MOVING_MASS),
-        left_out: |_| CONSTANT_MASS,
+        keep_reason: |s| reason_if(s.general, MOVING_MASS),
+        omit_reason: |_| CONSTANT_MASS,
         run: &[(PassPart::Positions, calls::factor)],
     },
-    Row {
+    PipelineRow {
         stage: Stage::Collision,
         name: "collision",
         needs: &[(&[Stage::GeomPoses], ALWAYS)],
-        wanted: contacts,
-        left_out: |s| {
+        keep_reason: contacts,
+        omit_reason: |s| {
             let off = s.m.opt.disabled(disable::CONTACT) || s.m.opt.disabled(disable::CONSTRAINT);
             match s.m.ngeom {
                 _ if off => "contacts are switched off",
@@ -181,7 +181,7 @@ pub(super) const STAGES: [Row; 26] = [
         },
         run: &[(PassPart::Positions, calls::collide)],
     },
-    Row {
+    PipelineRow {
         stage: Stage::Constraint,
         name: "constraint",
         needs: &[
@@ -192,14 +192,14 @@ pub(super) const STAGES: [Row; 26] = [
             }),
             (&[Stage::Tendon], |s, _| s.tendon_constraints()),
         ],
-        wanted: |s| {
+        keep_reason: |s| {
             let wakes = s.sleeps && s.m.neq > 0;
             constraints(s).or_else(|| reason_if(wakes, "trees that are tied together wake each other"))
         },
-        left_out: |_| NO_CONSTRAINTS,
+        omit_reason: |_| NO_CONSTRAINTS,
         run: &[(PassPart::Positions, calls::make_constraints)],
     },
-    Row {
+    PipelineRow {
         stage: Stage::Transmission,
         name: "transmission",
         needs: &[
@@ -208,35 +208,37 @@ pub(super) const STAGES: [Row; 26] = [
             (&[Stage::Tendon], |s, _| s.transmits(&[trntype::TENDON])),
             (&[Stage::Collision, Stage::Constraint], |s, _| s.transmits(&[trntype::BODY])),
         ],
-        wanted: |s| s.reads(Stage::Transmission),
-        left_out: |s| without_actuators(s).unwrap_or("moments are constant and no force depends on a length"),
+        keep_reason: |s| s.reads(Stage::Transmission),
+        omit_reason: |s| {
+            without_actuators(s).unwrap_or("moments are constant and no force depends on a length")
+        },
         run: &[(PassPart::Positions, |m, d, s| transmission::transmissions(m, d, &mut s.forces))],
     },
-    Row {
+    PipelineRow {
         stage: Stage::TendonVel,
         name: "tendon-velocity",
         needs: &[(&[Stage::Tendon], ALWAYS)],
-        wanted: |s| s.reads(Stage::TendonVel),
-        left_out: without_tendons,
+        keep_reason: |s| s.reads(Stage::TendonVel),
+        omit_reason: without_tendons,
         run: &[(PassPart::Velocities, |m, d, _| tendon::velocities(m, d))],
     },
-    Row {
+    PipelineRow {
         stage: Stage::ActuatorVel,
         name: "actuator-velocity",
         needs: &[(&[Stage::Transmission], ALWAYS)],
-        wanted: |s| s.reads(Stage::ActuatorVel),
-        left_out: |s| without_actuators(s).unwrap_or("no force depends on the velocity of an actuator"),
+        keep_reason: |s| s.reads(Stage::ActuatorVel),
+        omit_reason: |s| without_actuators(s).unwrap_or("no force depends on the velocity of an actuator"),
         run: &[(PassPart::Velocities, |m, d, _| transmission::velocities(m, d))],
     },
-    Row {
+    PipelineRow {
         stage: Stage::ComVel,
         name: "body-velocity",
         needs: &[(&[Stage::ComPos], ALWAYS)],
-        wanted: |s| s.reads(Stage::ComVel),
-        left_out: |_| NO_SPATIAL_BODIES,
+        keep_reason: |s| s.reads(Stage::ComVel),
+        omit_reason: |_| NO_SPATIAL_BODIES,
         run: &[(PassPart::Velocities, |m, d, _| com::com_vel(m, d))],
     },
-    Row {
+    PipelineRow {
         stage: Stage::Passive,
         name: "passive-force",
         needs: &[
@@ -246,24 +248,24 @@ pub(super) const STAGES: [Row; 26] = [
             (&[Stage::ComVel], |s, _| s.fluid),
             (&[Stage::GeomPoses], |s, _| s.fluid && s.ellipsoids()),
         ],
-        wanted: |s| {
+        keep_reason: |s| {
             reason_if(s.joint_forces || s.tendon_forces(), "joints or tendons have springs or dampers")
                 .or_else(|| reason_if(s.fluid, "bodies move in a medium"))
                 .or_else(|| reason_if(s.adhesion, "contacts pull"))
                 .or_else(|| reason_if(s.gravcomp, "the weight of bodies is compensated"))
         },
-        left_out: |_| "no joint or tendon has a spring or a damper, and bodies move in a vacuum",
+        omit_reason: |_| "no joint or tendon has a spring or a damper, and bodies move in a vacuum",
         run: &[(PassPart::Velocities, |m, d, _| passive::passive(m, d))],
     },
-    Row {
+    PipelineRow {
         stage: Stage::Reference,
         name: "reference",
         needs: &[(&[Stage::ComVel], |s, _| s.constrains_bodies())],
-        wanted: constraints,
-        left_out: |_| NO_CONSTRAINTS,
+        keep_reason: constraints,
+        omit_reason: |_| NO_CONSTRAINTS,
         run: &[(PassPart::Velocities, |m, d, s| constraint::reference(m, d, &s.constraint))],
     },
-    Row {
+    PipelineRow {
         stage: Stage::Bias,
         name: "bias-force",
         needs: &[
@@ -271,11 +273,11 @@ pub(super) const STAGES: [Row; 26] = [
             (&[Stage::ComVel], |s, _| s.tendon_armature || s.large),
             (&[Stage::Kinematics], |s, _| tree_algorithms::bias_depends_on_poses(s.m, s.algorithms)),
         ],
-        wanted: |s| reason_if(s.m.nv > 0, "gravity and the motion of bodies make forces"),
-        left_out: |_| "nothing moves",
+        keep_reason: |s| reason_if(s.m.nv > 0, "gravity and the motion of bodies make forces"),
+        omit_reason: |_| "nothing moves",
         run: &[(PassPart::Velocities, calls::bias)],
     },
-    Row {
+    PipelineRow {
         stage: Stage::Actuation,
         name: "actuation",
         needs: &[
@@ -284,11 +286,11 @@ pub(super) const STAGES: [Row; 26] = [
                 s.m.jnt_actgravcomp.contains(&true) || s.writes(&[model::jnt_actgravcomp])
             }),
         ],
-        wanted: |s| reason_if(s.actuated, "actuators make forces"),
-        left_out: |s| without_actuators(s).unwrap_or("actuators are switched off"),
+        keep_reason: |s| reason_if(s.actuated, "actuators make forces"),
+        omit_reason: |s| without_actuators(s).unwrap_or("actuators are switched off"),
         run: &[(PassPart::Inputs, |m, d, s| actuation::actuation(m, d, &mut s.forces))],
     },
-    Row {
+    PipelineRow {
         stage: Stage::Acceleration,
         name: "acceleration",
         needs: &[
@@ -299,28 +301,28 @@ pub(super) const STAGES: [Row; 26] = [
             }),
             (&[Stage::Kinematics], |s, _| s.has_applied_forces()),
         ],
-        wanted: |s| reason_if(s.m.nv > 0, "the integrator needs it"),
-        left_out: |_| "nothing moves",
+        keep_reason: |s| reason_if(s.m.nv > 0, "the integrator needs it"),
+        omit_reason: |_| "nothing moves",
         run: &[(PassPart::Inputs, calls::acceleration)],
     },
-    Row {
+    PipelineRow {
         stage: Stage::Solve,
         name: "solver",
         needs: &[],
-        wanted: constraints,
-        left_out: |_| NO_CONSTRAINTS,
+        keep_reason: constraints,
+        omit_reason: |_| NO_CONSTRAINTS,
         run: &[(PassPart::Inputs, calls::solve)],
     },
-    Row {
+    PipelineRow {
         stage: Stage::SubtreeVel,
         name: "subtree-momentum",
         needs: &[(&[Stage::ComVel], ALWAYS)],
         // The fields are computed only if a sensor needs them.
-        wanted: |s| s.reads(Stage::SubtreeVel).filter(|_| sensor::needs(s.m, Stage::SubtreeVel)),
-        left_out: |_| "no sensor measures the momentum of a subtree",
+        keep_reason: |s| s.reads(Stage::SubtreeVel).filter(|_| sensor::needs(s.m, Stage::SubtreeVel)),
+        omit_reason: |_| "no sensor measures the momentum of a subtree",
         run: &[(PassPart::Velocities, |m, d, _| calls::subtree_velocities(m, d))],
     },
-    Row {
+    PipelineRow {
         stage: Stage::RnePost,
         name: "body-force",
         needs: &[
@@ -330,11 +332,11 @@ pub(super) const STAGES: [Row; 26] = [
                 s.m.wrap_type.contains(&wraptype::SITE)
             }),
         ],
-        wanted: |s| s.reads(Stage::RnePost).filter(|_| sensor::needs(s.m, Stage::RnePost)),
-        left_out: |_| "no sensor measures a force or an acceleration",
+        keep_reason: |s| s.reads(Stage::RnePost).filter(|_| sensor::needs(s.m, Stage::RnePost)),
+        omit_reason: |_| "no sensor measures a force or an acceleration",
         run: &[(PassPart::Inputs, |m, d, _| calls::body_forces(m, d))],
     },
-    Row {
+    PipelineRow {
         stage: Stage::Sensors,
         name: "sensor",
         needs: &[
@@ -342,10 +344,10 @@ pub(super) const STAGES: [Row; 26] = [
                 let poses = [Stage::Kinematics, Stage::GeomPoses, Stage::SitePoses, Stage::CameraPoses];
                 poses.into_iter().any(|stage| s.is_used_by_sensors(stage))
             }),
-            (&[], |s, of| s.is_used_by_sensors(of)),
+            (&[], |s, stage| s.is_used_by_sensors(stage)),
         ],
-        wanted: |s| reason_if(s.sensors, "sensor values are read"),
-        left_out: |s| match s.m.nsensor {
+        keep_reason: |s| reason_if(s.sensors, "sensor values are read"),
+        omit_reason: |s| match s.m.nsensor {
             0 => "the model has no sensors",
             _ => "nothing reads sensordata",
         },
@@ -355,7 +357,7 @@ pub(super) const STAGES: [Row; 26] = [
             (PassPart::Inputs, |m, d, s| sensor::evaluate(m, d, &mut s.sensor, SensorStage::Acceleration)),
         ],
     },
-    Row {
+    PipelineRow {
         stage: Stage::Energy,
         name: "energy",
         needs: &[
@@ -363,8 +365,8 @@ pub(super) const STAGES: [Row; 26] = [
             (&[Stage::Kinematics], ALWAYS),
             (&[Stage::Tendon], |s, _| s.tendon_springs),
         ],
-        wanted: |s| s.reads(Stage::Energy).filter(|_| s.energy || sensor::measures_energy(s.m)),
-        left_out: |s| if s.energy { "nothing reads the energy" } else { "the energy flag is off" },
+        keep_reason: |s| s.reads(Stage::Energy).filter(|_| s.energy || sensor::measures_energy(s.m)),
+        omit_reason: |s| if s.energy { "nothing reads the energy" } else { "the energy flag is off" },
         run: &[
             (PassPart::Positions, calls::potential_energy),
             (PassPart::Velocities, |m, d, _| calls::kinetic_energy(m, d)),

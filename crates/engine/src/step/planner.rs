@@ -53,12 +53,12 @@ impl PlanTable {
         for row in STAGES.iter().rev() {
             let user =
                 STAGES.iter().find(|later| plan.keeps(later.stage) && later.uses(&analysis, row.stage));
-            let why =
-                (row.wanted)(&analysis).or_else(|| user.map(|u| format!("the {} stage uses it", u.name)));
+            let why = (row.keep_reason)(&analysis)
+                .or_else(|| user.map(|u| format!("the {} stage uses it", u.name)));
             let why = why.or_else(|| (more == Some(row.stage)).then(|| "it was requested".into()));
             match why {
                 Some(reason) => plan.decide(row.stage, true, reason),
-                None => plan.decide(row.stage, false, (row.left_out)(&analysis).into()),
+                None => plan.decide(row.stage, false, (row.omit_reason)(&analysis).into()),
             }
         }
         plan.decisions.reverse();

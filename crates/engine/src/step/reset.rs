@@ -13,7 +13,7 @@ use crate::model::stopwatch::Stopwatch;
 use crate::model::tree_algorithm::TreeAlgorithms;
 use crate::model::{Fields, Model, Warning, WarningStat, asleep, reflect};
 use crate::step::analysis::{self, AccessSet};
-use crate::step::workspace::{Scratch, Workspace};
+use crate::step::workspace::{StepScratch, Workspace};
 use crate::{collision, constraint, sensor};
 
 impl Workspace {
@@ -43,14 +43,14 @@ impl Workspace {
 }
 
 /// Replaces the plan, which determines what the next forward pass computes.
-pub fn set_plan(m: &Model, d: &mut Fields, s: &mut Scratch, plan: PlanTable) {
+pub fn set_plan(m: &Model, d: &mut Fields, s: &mut StepScratch, plan: PlanTable) {
     s.collision.pairs = if plan.keeps(Stage::Collision) {
         collision::pairs(m, analysis::changes(&plan))
     } else {
-        collision::Pairs::default()
+        collision::CandidatePairs::default()
     };
     if plan.algorithms != d.plan.algorithms {
-        s.dynamics = dynamics::Scratch::new(m, plan.algorithms);
+        s.dynamics = dynamics::DynamicsScratch::new(m, plan.algorithms);
     }
     d.plan = plan;
     if s.watch.is_some() {
@@ -61,17 +61,17 @@ pub fn set_plan(m: &Model, d: &mut Fields, s: &mut Scratch, plan: PlanTable) {
     if sleep::is_fresh(&s.sleep) {
         sleep_or_wake_trees(m, d, s);
     }
-    clear_left_out(m, d, s);
+    clear_omitted_fields(m, d, s);
 }
 
 /// Starts measuring the times of the stages from zero, with a clock of the caller.
-pub fn clock(d: &mut Fields, s: &mut Scratch, clock: fn() -> u64) {
+pub fn clock(d: &mut Fields, s: &mut StepScratch, clock: fn() -> u64) {
     s.watch = Some(Box::new(Stopwatch::new(clock)));
     d.plan.passes = with_clock(d.plan.passes);
 }
 
 /// Resets state, inputs, results and warnings to the default configuration (`mj_resetData`). Edits of the model stay.
-pub fn reset_data(m: &Model, d: &mut Fields, s: &mut Scratch) {
+pub fn reset_data(m: &Model, d: &mut Fields, s: &mut StepScratch) {
     reflect::allocate_data(m, d);
     (d.ncon, d.nefc, d.nisland, d.solver_niter) = (0, 0, 0, 0);
     (d.ne, d.nf, d.nl) = (0, 0, 0);
@@ -89,12 +89,12 @@ pub fn reset_data(m: &Model, d: &mut Fields, s: &mut Scratch) {
             rows_mut::<4>(&mut d.mocap_quat)[id as usize] = rows::<4>(&m.body_quat)[b];
         }
     }
-    clear_left_out(m, d, s);
+    clear_omitted_fields(m, d, s);
     sleep_or_wake_trees(m, d, s);
 }
 
 /// Puts the trees to sleep that start asleep, and wakes all others.
-fn sleep_or_wake_trees(m: &Model, d: &mut Fields, s: &mut Scratch) {
+fn sleep_or_wake_trees(m: &Model, d: &mut Fields, s: &mut StepScratch) {
     if sleep::wake_all(m, d) {
         forward::forward(m, d, s);
         sleep::start(m, d, &mut s.constraint);
@@ -103,7 +103,7 @@ fn sleep_or_wake_trees(m: &Model, d: &mut Fields, s: &mut Scratch) {
 }
 
 /// Resets the data to keyframe `key` (`mj_resetDataKeyframe`). If there is no such keyframe, resets to the default configuration.
-pub fn reset_data_keyframe(m: &Model, d: &mut Fields, s: &mut Scratch, key: usize) {
+pub fn reset_data_keyframe(m: &Model, d: &mut Fields, s: &mut StepScratch, key: usize) {
     reset_data(m, d, s);
     if key >= m.nkey {
         return;
@@ -134,7 +134,7 @@ pub fn set_keyframe(m: &mut Model, d: &Fields, key: usize) -> bool {
 }
 
 /// Sets the fields of stages that the plan leaves out to the values that these stages would compute.
-pub(crate) fn clear_left_out(m: &Model, d: &mut Fields, s: &mut Scratch) {
+pub(crate) fn clear_omitted_fields(m: &Model, d: &mut Fields, s: &mut StepScratch) {
     if !d.plan.has(PlanFlag::General) {
         mass::constant(m, d);
     }

@@ -10,7 +10,7 @@ use crate::kinds::cone;
 use crate::model::bytes::{FixedSize, fingerprint};
 use crate::model::reflect::{self, Elem, Object, View};
 use crate::model::{Contact, Fields, Model, Obj, Warning, WarningStat};
-use crate::step::workspace::{Scratch, Workspace};
+use crate::step::workspace::{StepScratch, Workspace};
 use crate::step::{forward, reset};
 use std::fmt;
 use std::ops::Range;
@@ -74,7 +74,7 @@ pub fn save(m: &Model, d: &Fields) -> Vec<u8> {
 
 /// Restores a saved simulation of the same model, bit for bit. The plan of the data stays. The parameters of the
 /// model are not saved: the run continues with their current values.
-pub fn restore(m: &Model, d: &mut Fields, s: &mut Scratch, bytes: &[u8]) -> Result<(), RestoreError> {
+pub fn restore(m: &Model, d: &mut Fields, s: &mut StepScratch, bytes: &[u8]) -> Result<(), RestoreError> {
     let (body, end) = bytes.split_last_chunk::<8>().ok_or(RestoreError::NotData)?;
     let rest = check_header(m, body)?;
     if fingerprint(body) != u64::from_le_bytes(*end) {
@@ -84,7 +84,7 @@ pub fn restore(m: &Model, d: &mut Fields, s: &mut Scratch, bytes: &[u8]) -> Resu
     if let Some(field) = first_invalid_field(m, &new.fields) {
         return Err(RestoreError::Wrong(field));
     }
-    reset::clear_left_out(m, &mut new.fields, &mut new.scratch);
+    reset::clear_omitted_fields(m, &mut new.fields, &mut new.scratch);
     if let Some(again) = saved(m, d, rest) {
         restore_rows(m, &mut new, again);
     }
@@ -283,7 +283,7 @@ fn owners(m: &Model, d: &Fields, kind: i32) -> usize {
 /// step, and is empty if the state has changed since it was computed. `again` is a second copy of the data.
 fn restore_rows(m: &Model, d: &mut Workspace, mut again: Workspace) {
     let Workspace { fields, scratch } = &mut again;
-    reset::clear_left_out(m, fields, scratch);
+    reset::clear_omitted_fields(m, fields, scratch);
     forward::position(m, fields, scratch);
     let same = fields.efc_type == d.fields.efc_type && fields.efc_id == d.fields.efc_id;
     d.scratch = again.scratch;

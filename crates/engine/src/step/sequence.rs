@@ -4,7 +4,7 @@ use super::clocked::{self, CLOCKED, Run};
 use super::pipeline::{PassPart, STAGES};
 use crate::model::stage::Stage;
 use crate::model::{Fields, Model};
-use crate::step::workspace::Scratch;
+use crate::step::workspace::StepScratch;
 
 /// The functions of a part of a forward pass, in order. A plan selects functions with one bit each.
 pub(crate) struct Sequence {
@@ -33,8 +33,8 @@ impl Sequence {
     }
 
     /// The bits of all functions whose stage satisfies a condition.
-    fn bits(&self, of: impl Fn(Stage) -> bool) -> u32 {
-        self.stage.iter().enumerate().filter(|(_, s)| s.is_some_and(&of)).map(|(i, _)| 1 << i).sum()
+    fn bits(&self, predicate: impl Fn(Stage) -> bool) -> u32 {
+        self.stage.iter().enumerate().filter(|(_, s)| s.is_some_and(&predicate)).map(|(i, _)| 1 << i).sum()
     }
 
     /// The bits of the functions of some stages.
@@ -64,7 +64,7 @@ impl Sequence {
 
     /// Runs the functions that the bits select.
     #[cfg_attr(not(feature = "small"), inline(always))]
-    pub(crate) fn run(&self, m: &Model, d: &mut Fields, s: &mut Scratch, mut bits: u32) {
+    pub(crate) fn run(&self, m: &Model, d: &mut Fields, s: &mut StepScratch, mut bits: u32) {
         if bits & CLOCKED != 0 {
             return clocked::walk(&self.run, &self.stage, m, d, s, bits);
         }

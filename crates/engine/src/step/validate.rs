@@ -333,14 +333,15 @@ fn ties(m: &Model) -> bool {
 fn actuator(m: &Model, i: usize) -> bool {
     let [first, second] = [m.actuator_trnid[2 * i], m.actuator_trnid[2 * i + 1]];
     let (outputs, controls) = (m.actuator_outnum[i], m.actuator_ctrlnum[i]);
-    let of = |kind: i32| usize::try_from(first).ok().and_then(|j| m.jnt_type.get(j)) == Some(&kind);
+    let is_joint_type =
+        |kind: i32| usize::try_from(first).ok().and_then(|j| m.jnt_type.get(j)) == Some(&kind);
     let (target, width) = match m.actuator_trntype[i] {
         trntype::JOINT | trntype::JOINTINPARENT => (within(first, m.njnt), 1),
         trntype::TENDON => (within(first, m.ntendon), 1),
         trntype::SITE => (within(first, m.nsite) && (second == -1 || within(second, m.nsite)), 1),
         trntype::SLIDERCRANK => (within(first, m.nsite) && within(second, m.nsite), 1),
         trntype::SO3 if second >= 0 => (within(first, m.nsite) && within(second, m.nsite), 3),
-        trntype::SO3 => (of(joint::BALL), 3),
+        trntype::SO3 => (is_joint_type(joint::BALL), 3),
         trntype::BODY => (within(first, m.nbody), 1),
         _ => (false, 1),
     };

@@ -92,7 +92,8 @@ impl EffectWalk<'_> {
             Op::LoadValue(_, view, at) => effects.read(element(view, Some(f64::from(at)))),
             Op::Length(_, view) => effects.read(whole(view)),
             Op::PickNumber(_, table, _) => {
-                for (_, value) in self.form.picks.get(table as usize).iter().flat_map(|picks| &picks.of) {
+                for (_, value) in self.form.picks.get(table as usize).iter().flat_map(|picks| &picks.members)
+                {
                     if let Value::View(view) = value {
                         effects.read(whole(*view));
                     }
@@ -116,9 +117,9 @@ impl EffectWalk<'_> {
 
 /// The array on which a method is called, if it is known statically.
 pub(super) fn receiver(op: &Op, unit: &SsaFunction) -> Option<View> {
-    let of = |args: &Args| args.operands(&unit.args).first().copied();
+    let operand = |args: &Args| args.operands(&unit.args).first().copied();
     let name = match op {
-        Op::Method(_, _, args) => of(args)?,
+        Op::Method(_, _, args) => operand(args)?,
         Op::MethodList(_, _, on, _) => on.0,
         _ => return None,
     };

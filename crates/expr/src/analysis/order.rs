@@ -189,16 +189,16 @@ mod tests {
     #[test]
     fn own_writes_are_not_those_of_functions() {
         let mut globals = Globals::new();
-        let mut of = |source: &str| {
+        let mut writes_of = |source: &str| {
             let program = Compiler::new(&Mock, &mut globals).statements(source).program.unwrap();
             program.own_writes().iter().map(|a| (a.field.0, a.first, a.count)).collect::<Vec<_>>()
         };
-        assert_eq!(of("mj_setConst()"), []);
-        assert_eq!(of("data.qvel[2] = 1; mj_setConst"), [(2, 2, Some(1))]);
-        assert_eq!(of("if (data.time > 0) data.qvel[2] = 1"), [(2, 2, Some(1))]);
-        assert_eq!(of("ctx.kept = data.qvel.slice()"), []);
+        assert_eq!(writes_of("mj_setConst()"), []);
+        assert_eq!(writes_of("data.qvel[2] = 1; mj_setConst"), [(2, 2, Some(1))]);
+        assert_eq!(writes_of("if (data.time > 0) data.qvel[2] = 1"), [(2, 2, Some(1))]);
+        assert_eq!(writes_of("ctx.kept = data.qvel.slice()"), []);
         assert_eq!(
-            of("const q = data.qvel.slice(); data.qvel.set(q)").first().map(|a| (a.0, a.1)),
+            writes_of("const q = data.qvel.slice(); data.qvel.set(q)").first().map(|a| (a.0, a.1)),
             Some((2, 0))
         );
     }

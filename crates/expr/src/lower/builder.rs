@@ -13,7 +13,7 @@ use labspec_finding::Span;
 #[derive(Default)]
 pub(super) struct Variables {
     /// The value of each variable, and the number of enclosing loops when it was determined.
-    pub(super) now: Vec<Option<(Operand, u32)>>,
+    pub(super) current: Vec<Option<(Operand, u32)>>,
     /// The previous value for each change.
     pub(super) log: Vec<(LocalId, Option<(Operand, u32)>)>,
 }

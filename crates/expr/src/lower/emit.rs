@@ -4,7 +4,7 @@
 use super::pure;
 use super::registers::{RegisterFile, order_moves};
 use crate::code::{MachineCode, MachineFunction, OPERATION};
-use crate::row::{Row, WantedResult};
+use crate::row::{RequestedResult, Row};
 use crate::ssa::{
     Args, BasicBlock, BlockEdge, BlockId, Num, Op, Operand, OperandUse, Representation, SsaFunction,
     SsaProgram, Terminator, Val,
@@ -215,17 +215,17 @@ impl<'f> Emit<'f> {
             given.into_iter().filter(|(n, _)| left.get(&n.0).is_some_and(|left| *left > 0)).collect();
         let mut steps: Vec<u32> = outer.iter().map(|(_, step)| *step).collect();
         formula.finish(&mut steps);
-        let mut wanted = Vec::with_capacity(outer.len());
+        let mut requested = Vec::with_capacity(outer.len());
         for ((name, _), step) in outer.iter().zip(&steps) {
             let register = numbers.register(name.0);
             let Ok(register) = u8::try_from(register) else { return false };
             let at_once = !inputs.contains(&u32::from(register));
-            wanted.push(WantedResult { step: *step, register, at_once });
+            requested.push(RequestedResult { step: *step, register, at_once });
         }
         // Intermediate results of the formula use the registers after those assigned so far.
         let free =
             (numbers.count..numbers.count + formula.steps.len() as u32).map_while(|r| u8::try_from(r).ok());
-        let Some(row) = Row::part(&formula, &wanted, free) else { return false };
+        let Some(row) = Row::part(&formula, &requested, free) else { return false };
         numbers.count = numbers.count.max(row.registers());
         let at = code.formulas.len() as u32;
         code.formulas.push((row, count));
@@ -236,24 +236,22 @@ impl<'f> Emit<'f> {
 
     /// Makes operations of a block write their results directly to the registers that its end requires.
     fn write_results_directly(&mut self, at: BlockId, end: &Terminator) {
-        let mut wanted: Vec<(Operand, Operand)> = Vec::new();
+        let mut moves: Vec<(Operand, Operand)> = Vec::new();
         match end {
-            Terminator::Jump(edge) | Terminator::Again(edge) => wanted = self.moves(edge),
+            Terminator::Jump(edge) | Terminator::Again(edge) => moves = self.moves(edge),
             Terminator::Return(Some(from @ Operand::Number(_))) => {
-                wanted.push((Operand::Number(Num(0)), *from))
+                moves.push((Operand::Number(Num(0)), *from))
             }
-            Terminator::Return(Some(from @ Operand::Value(_))) => {
-                wanted.push((Operand::Value(Val(0)), *from))
-            }
+            Terminator::Return(Some(from @ Operand::Value(_))) => moves.push((Operand::Value(Val(0)), *from)),
             _ => {}
         }
-        if wanted.is_empty() {
+        if moves.is_empty() {
             return;
         }
         let again = matches!(end, Terminator::Again(_));
         // From the last operation to the first: a register that a later operation reads must not be overwritten.
         let mut read: Vec<Operand> =
-            if again { wanted.iter().map(|(_, from)| *from).collect() } else { Vec::new() };
+            if again { moves.iter().map(|(_, from)| *from).collect() } else { Vec::new() };
         for i in self.form.range(at).rev() {
             if self.live.get(i) != Some(&true) {
                 continue;
@@ -266,7 +264,7 @@ impl<'f> Emit<'f> {
                 _ => {}
             });
             if let Some(gives) = gives
-                && let Some((to, _)) = wanted.iter().find(|(to, from)| *from == gives && !read.contains(to))
+                && let Some((to, _)) = moves.iter().find(|(to, from)| *from == gives && !read.contains(to))
             {
                 match (gives, *to) {
                     (Operand::Number(n), Operand::Number(to)) if self.numbers.uses(n.0) == 1 => {

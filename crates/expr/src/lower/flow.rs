@@ -39,8 +39,8 @@ impl FunctionBuilder<'_> {
     /// Undoes all stores since a mark.
     pub(super) fn undo_stores(&mut self, mark: usize) {
         for (local, before) in self.variables.log.drain(mark..).rev() {
-            if let Some(now) = self.variables.now.get_mut(local as usize) {
-                *now = before;
+            if let Some(current) = self.variables.current.get_mut(local as usize) {
+                *current = before;
             }
         }
     }
@@ -52,18 +52,18 @@ impl FunctionBuilder<'_> {
     }
 
     pub(super) fn write(&mut self, local: LocalId, at: Operand) {
-        let Variables { now, log } = &mut self.variables;
-        if now.len() <= local as usize {
-            now.resize(local as usize + 1, None);
+        let Variables { current, log } = &mut self.variables;
+        if current.len() <= local as usize {
+            current.resize(local as usize + 1, None);
         }
-        if let Some(place) = now.get_mut(local as usize) {
+        if let Some(place) = current.get_mut(local as usize) {
             log.push((local, place.replace((at, self.loops.len() as u32))));
         }
     }
 
     /// The current value of a variable, or `None` if nothing was stored.
     fn find(&mut self, local: LocalId) -> Option<Operand> {
-        let (mut at, level) = self.variables.now.get(local as usize).copied().flatten()?;
+        let (mut at, level) = self.variables.current.get(local as usize).copied().flatten()?;
         if (level as usize) < self.loops.len() {
             for i in level as usize..self.loops.len() {
                 let param = self.loops.get(i).and_then(|l| l.params.get(&local)).map(|(param, _)| *param);
@@ -99,7 +99,7 @@ impl FunctionBuilder<'_> {
 
     /// Whether a value was stored.
     pub(super) fn has(&self, local: LocalId) -> bool {
-        self.variables.now.get(local as usize).is_some_and(Option::is_some)
+        self.variables.current.get(local as usize).is_some_and(Option::is_some)
     }
 
     /// A new name with the same representation.
@@ -128,8 +128,9 @@ impl FunctionBuilder<'_> {
         let mut locals: Vec<LocalId> = log.iter().map(|(local, _)| *local).collect();
         order::sort_by(&mut locals, Ord::cmp);
         locals.dedup();
-        let now = |l: LocalId| self.variables.now.get(l as usize).copied().flatten().map(|(at, _)| (l, at));
-        locals.into_iter().filter_map(now).collect()
+        let current =
+            |l: LocalId| self.variables.current.get(l as usize).copied().flatten().map(|(at, _)| (l, at));
+        locals.into_iter().filter_map(current).collect()
     }
 
     /// Ends the block; the code after it is unreachable.

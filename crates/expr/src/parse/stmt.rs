@@ -259,8 +259,8 @@ impl Parser<'_> {
         let declares = ["const", "let", "var"].iter().any(|w| self.is_word(w));
         let constant = self.is_word("const");
         let behind = self.after_group(usize::from(declares));
-        let of = |word: &str| matches!(self.peek_at(behind), TokenKind::Word(w) if *w == word);
-        if !of("of") && !of("in") {
+        let is_word = |word: &str| matches!(self.peek_at(behind), TokenKind::Word(w) if *w == word);
+        if !is_word("of") && !is_word("in") {
             return Ok(None);
         }
         if declares {

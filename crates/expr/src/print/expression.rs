@@ -84,7 +84,7 @@ impl Printer<'_> {
         match &expr.kind {
             ExprKind::Unary { op, operand } => {
                 self.append(op.symbol());
-                // A space keeps `- -x`, `+ ++x` and `typeof x` apart.
+                // A space separates the operators of `- -x`, `+ ++x` and `typeof x`.
                 let runs = starts_with_sign(operand) && matches!(op, UnaryOp::Minus | UnaryOp::Plus);
                 if runs || *op == UnaryOp::TypeOf {
                     self.append(" ");

@@ -159,10 +159,10 @@ struct Measured {
 fn measure(range: &Range, list: &[[f64; 2]], theirs: &[f64]) -> Measured {
     let mut found = Measured { cases: list.len(), same: 0, most: 0, at: [f64::NAN; 2] };
     for (args, theirs) in list.iter().zip(theirs) {
-        let apart = ulps(ours(range, *args), *theirs);
-        found.same += usize::from(apart == 0);
-        if apart > found.most {
-            (found.most, found.at) = (apart, *args);
+        let error = ulps(ours(range, *args), *theirs);
+        found.same += usize::from(error == 0);
+        if error > found.most {
+            (found.most, found.at) = (error, *args);
         }
     }
     found

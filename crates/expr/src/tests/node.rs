@@ -146,12 +146,12 @@ fn random_programs_behave_as_in_javascript() {
     if !needs("node") {
         return;
     }
-    let wanted = from_env("LABSPEC_NODE_PROGRAMS", 1500) as usize;
+    let count = from_env("LABSPEC_NODE_PROGRAMS", 1500) as usize;
     let seed = from_env("LABSPEC_NODE_SEED", 1);
     let mut generator = Generator::new(seed);
     let (mut done, mut refused) = (0, BTreeMap::new());
-    while done < wanted {
-        let batch: Vec<(String, String)> = (0..2000.min(2 * (wanted - done)))
+    while done < count {
+        let batch: Vec<(String, String)> = (0..2000.min(2 * (count - done)))
             .filter_map(|_| {
                 let source = generator.program();
                 match result_here(&source) {
@@ -162,7 +162,7 @@ fn random_programs_behave_as_in_javascript() {
                     }
                 }
             })
-            .take(wanted - done)
+            .take(count - done)
             .collect();
         let sources: Vec<String> = batch.iter().map(|(s, _)| s.clone()).collect();
         let results = results_in_node(&sources);

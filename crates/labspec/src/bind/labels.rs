@@ -104,9 +104,9 @@ pub(crate) fn contradicts(found: &Dimension, unit: &Dimension) -> bool {
         return found.has_angle() || !unit.has_angle() || is_power_of_ten(unit.factor);
     }
     let converted = is_power_of_ten(factor) || found.has_angle() && is_degrees(factor);
-    let wanted = is_power_of_ten(unit.factor) || is_degrees(unit.factor.abs());
+    let is_common_unit = is_power_of_ten(unit.factor) || is_degrees(unit.factor.abs());
     let pure = (0.1..=10.0).contains(&factor) && !(0.01..=100.0).contains(&ratio);
-    converted && wanted || pure
+    converted && is_common_unit || pure
 }
 
 /// Whether a number is a power of ten such as 0.001, 100, 1000 or 1, but not 0.1 or 10.

@@ -8,7 +8,7 @@ use crate::lint::{ModelFolder, root_of};
 use crate::models::{self, FilesOf};
 use crate::rules;
 use crate::source::{self, SourceFile, Sources, Text};
-use crate::spec::format::Asked;
+use crate::spec::format::RequestedNames;
 use crate::spec::{Lab, ModelSource};
 use labspec_core::xml::{self, Files, Folder, NoFiles, Patch, Refusal};
 use labspec_core::{Model, Obj};
@@ -151,21 +151,21 @@ impl Models {
         })
     }
 
-    /// Calls `of` with the text of a lab's model, the files that it names, and its own name among them. `None` when it
+    /// Calls `read` with the text of a lab's model, the files that it names, and its own name among them. `None` when it
     /// cannot be read.
-    fn texts<T>(&self, lab: &Lab, of: impl FnOnce(&str, &dyn Files, Option<&str>) -> T) -> Option<T> {
+    fn texts<T>(&self, lab: &Lab, read: impl FnOnce(&str, &dyn Files, Option<&str>) -> T) -> Option<T> {
         let name = match lab.scene()? {
-            ModelSource::Xml(text) => return Some(of(&text.value, &NoFiles, None)),
+            ModelSource::Xml(text) => return Some(read(&text.value, &NoFiles, None)),
             ModelSource::Model(name) => &name.value,
         };
         let file = Some(format!("{name}.xml"));
         if let Some(given) = self.folder.given() {
-            return Some(of(&given.text(name)?, &FilesOf(given), file.as_deref()));
+            return Some(read(&given.text(name)?, &FilesOf(given), file.as_deref()));
         }
         let path = self.folder.path(name)?;
         let text = read_file(&path, &self.sources).ok()?;
         let files = FilesAround::below(&path, self.folder.root(), &self.sources);
-        Some(of(text.text(), &files, file.as_deref()))
+        Some(read(text.text(), &files, file.as_deref()))
     }
 
     /// The model with this name; `None` when there is none or it has errors, which are then findings of the models.
@@ -181,20 +181,20 @@ impl Models {
         }
         let folder = path.parent().unwrap_or(Path::new(""));
         let find = || Some(root_of(folder, &[]));
-        let root = self.sources.place(source::Asked::Root, folder, find).unwrap_or_default();
+        let root = self.sources.place(source::PathQuery::Root, folder, find).unwrap_or_default();
         compile_file(file, path, &root, &self.sources, None).findings
     }
 
     /// The names for completions in a lesson ([`crate::spec::format::completions`]).
-    pub fn names(&self, asked: Asked<'_>) -> Vec<String> {
+    pub fn names(&self, asked: RequestedNames<'_>) -> Vec<String> {
         let sites = |model: &Model| {
             let named = model.names.of_kind(Obj::Site).iter().filter(|name| !name.is_empty());
             named.cloned().collect()
         };
         match asked {
-            Asked::Models => self.folder.names().unwrap_or_default().to_vec(),
-            Asked::SitesOf(name) => self.load(name).map_or_else(Vec::new, |model| sites(&model)),
-            Asked::SitesIn(xml) => {
+            RequestedNames::Models => self.folder.names().unwrap_or_default().to_vec(),
+            RequestedNames::SitesOf(name) => self.load(name).map_or_else(Vec::new, |model| sites(&model)),
+            RequestedNames::SitesIn(xml) => {
                 xml::check_xml(xml, &NoFiles, None).model.map_or_else(Vec::new, |model| sites(&model))
             }
         }
@@ -284,12 +284,12 @@ impl Models {
                 // The text of a model and the bytes of the same file, when it is attached, have different digests.
                 let at = (named, part.path.is_empty(), part.limit);
                 let cached = lock_cache(&self.marks).get(&at).cloned();
-                let now = cached.unwrap_or_else(|| {
-                    let now = parts::hash_now(hash, &path, files, &part.path, part.limit);
-                    lock_cache(&self.marks).insert(at, now.clone());
-                    now
+                let current = cached.unwrap_or_else(|| {
+                    let current = parts::hash_now(hash, &path, files, &part.path, part.limit);
+                    lock_cache(&self.marks).insert(at, current.clone());
+                    current
                 });
-                now == part.hash
+                current == part.hash
             })
     }
 }

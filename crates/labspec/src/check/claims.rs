@@ -7,7 +7,7 @@ use crate::bind::scene::Models;
 use crate::finding::Finding;
 use crate::ledger::State;
 use crate::spec::{Lab, Lesson, Question, QuestionKind, Remark, Verify};
-use crate::verify::{self, Answer, BoundLab, BoundVerify, Judgement, QuoteState, RenderedText, Stage};
+use crate::verify::{self, Answer, BoundLab, BoundVerify, Judgement, QuoteState, RenderedText, RunCache};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
@@ -106,7 +106,7 @@ pub(super) fn unclaimed(question: &Question) -> Option<Answer> {
 
 /// Lints the texts of every `verify` object without executing runs.
 pub(super) fn bind(lesson: &Lesson, ready: &[PreparedLab<'_>], models: &Models, findings: &mut Vec<Finding>) {
-    let stage = Stage::new(models);
+    let stage = RunCache::new(models);
     for (_, owner) in owners(lesson) {
         if let Some((verify, lab, _)) = owner.claim(lesson)
             && let Some(resolved) = resolve_labs(lesson, ready, verify, lab, &stage, findings)
@@ -136,7 +136,7 @@ pub(super) fn check_claims<'l>(
     let ready = &*ready;
     let partners = Partners::new(lesson, ready, models, candidates);
     let mut checker =
-        ClaimChecker { lesson, ready, rendered, stage: Stage::new(models), partners, list: Vec::new() };
+        ClaimChecker { lesson, ready, rendered, stage: RunCache::new(models), partners, list: Vec::new() };
     for (name, owner) in owners(lesson) {
         match owner {
             Owner::Lab(lab) => checker.judge_lab(name, lab, findings),
@@ -151,7 +151,7 @@ struct ClaimChecker<'a> {
     lesson: &'a Lesson,
     ready: &'a [PreparedLab<'a>],
     rendered: RenderedText,
-    stage: Stage<'a>,
+    stage: RunCache<'a>,
     partners: Partners<'a>,
     list: Vec<Claim>,
 }

@@ -4,7 +4,7 @@ use super::claims;
 use super::resolved_labs::record_curves;
 use crate::bind::scene::Models;
 use crate::spec::Lesson;
-use crate::verify::{Curves, Stage};
+use crate::verify::{Curves, RunCache};
 use std::ops::Range;
 
 /// Maximum number of drawn runs of one claim.
@@ -22,7 +22,7 @@ pub struct VerifyCurves {
 /// Repeats the runs of every claim and records the traces of its lab.
 pub fn curves(lesson: &Lesson, models: &Models) -> Vec<VerifyCurves> {
     let ready = super::of_claims(lesson, models);
-    let stage = Stage::new(models);
+    let stage = RunCache::new(models);
     let owners = claims::owners(lesson).into_iter();
     let drawn = owners.filter_map(|(_, owner)| {
         let (verify, lab, _) = owner.claim(lesson)?;

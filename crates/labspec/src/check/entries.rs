@@ -58,7 +58,7 @@ fn lesson(c: &Checked, ledger: &mut Ledger) {
     entries.add_widgets();
     entries.add_snapshots();
     entries.add_claims();
-    left_out(c, &mut all);
+    add_skipped_parts(c, &mut all);
     for mut entry in all {
         // A page cannot read a block with invalid JSON, even if the parser recovered from the errors.
         if matches!(entry.state, State::True(_)) && c.lesson.is_broken(&entry.span) {
@@ -136,7 +136,7 @@ impl LessonEntries<'_> {
             let owner = format!("widget {}", widget.name);
             let (state, word, remark) = match level.claims && !level.labs {
                 true => (State::NotClaimed, "not run", String::new()),
-                false => (State::LeftOut, "unknown", unknown_widget(&widget.name)),
+                false => (State::Skipped, "unknown", unknown_widget(&widget.name)),
             };
             let about = self.entry(Subject::Widget, &owner, &widget.span, state, word);
             self.entries.push(Entry { remark, ..about });
@@ -199,13 +199,13 @@ impl LessonEntries<'_> {
 
 /// Adds the labs and claims that the level of the check leaves out. If only the claims are verified, the labs have no
 /// entries.
-fn left_out(c: &Checked, ledger: &mut Vec<Entry>) {
+fn add_skipped_parts(c: &Checked, ledger: &mut Vec<Entry>) {
     let entry = |subject, owner: &str, span: Range<usize>, what: &str| Entry {
         subject,
         owner: owner.to_string(),
         path: c.lesson.file.path().clone(),
         span,
-        state: State::LeftOut,
+        state: State::Skipped,
         word: "left out",
         what: what.to_string(),
         remark: String::new(),

@@ -8,7 +8,7 @@ use crate::finding::Finding;
 use crate::json::to_value;
 use crate::spec::Lesson;
 use crate::verify::judge::{self, Judged, RecordedRun, Reference, RunTask, Unjudged};
-use crate::verify::{RenderedText, Stage};
+use crate::verify::{RenderedText, RunCache};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A run that a reference engine has to make.
@@ -26,7 +26,7 @@ pub struct Request {
 
 /// The recorded results of a reference engine.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Recording {
+pub struct ReferenceRecording {
     /// `MuJoCo 3.14.0`.
     pub engine: String,
     /// The runs by the digest of the request.
@@ -55,11 +55,11 @@ pub fn hear(
     lesson: &Lesson,
     models: &Models,
     hash_bytes: Hash,
-    recording: Option<&Recording>,
+    recording: Option<&ReferenceRecording>,
     findings: &mut Vec<Finding>,
 ) -> CrossCheck {
     let ready = super::of_claims(lesson, models);
-    let stage = Stage::new(models);
+    let stage = RunCache::new(models);
     let rendered = RenderedText::of_lesson(lesson);
     let mut cross_check = CrossCheck::default();
     for (name, owner) in claims::owners(lesson) {
@@ -88,7 +88,7 @@ pub fn hear(
 /// The recording of a run, or the reason why there is none.
 fn recorded<'r>(
     lesson: &Lesson,
-    recording: &'r Recording,
+    recording: &'r ReferenceRecording,
     request: &Request,
     cross_check: &mut CrossCheck,
 ) -> Result<&'r RecordedRun, String> {

@@ -25,7 +25,7 @@ pub use claim_id::is_about;
 pub use claims::Claim;
 pub use curves::{VerifyCurves, curves};
 pub use entries::{evidence, ledger};
-pub use judge::{CrossCheck, Recording, Request, file_name, hear};
+pub use judge::{CrossCheck, ReferenceRecording, Request, file_name, hear};
 pub use lab_runs::Coverage;
 pub use reproduce::{Basis, ClaimBasis, LabBasis, RunSettings, basis};
 pub use snapshot::{Divergence, SnapshotResult, SnapshotUpdate, UpdatedLab, update_snapshot};
@@ -147,7 +147,7 @@ pub fn run_checks(lesson: &Lesson, models: &Models, level: CheckLevel) -> LabOut
     let snapshots = snapshot::check_snapshots(lesson, &ready, level, &mut findings);
     // An editor checks one block at a time, so it does not know the claims of the other blocks.
     if level.claims {
-        rules::numbers_unclaimed::check_left_out(lesson, &mut findings);
+        rules::numbers_unclaimed::check_unclaimed_numbers(lesson, &mut findings);
     }
     ready.extend(beside(lesson, models));
     let claims = if level.claims {
@@ -189,16 +189,16 @@ fn empty() -> Option<PreparedLab<'static>> {
 
 /// Removes `idle-control` findings of controls for which a finding states that a reset undoes their effect.
 fn deduplicate(lesson: &Lesson, findings: &mut Vec<Finding>) {
-    let of = |code: &str, f: &Finding| f.code == code;
+    let tested_code = |code: &str, f: &Finding| f.code == code;
     let lost = |span: &std::ops::Range<usize>, findings: &[Finding]| {
         let inside = |f: &Finding| span.start <= f.span.start && f.span.end <= span.end;
-        findings.iter().any(|f| of(rules::LOST_AT_RESET.code, f) && inside(f))
+        findings.iter().any(|f| tested_code(rules::LOST_AT_RESET.code, f) && inside(f))
     };
     let labs = lesson.all_labs();
     let controls = labs.iter().flat_map(|lab| &lab.controls).map(|c| c.span.clone());
     let spans: Vec<_> = controls.filter(|span| lost(span, findings)).collect();
     findings.retain(|f| {
-        !of(rules::IDLE_CONTROL.code, f) || !spans.iter().any(|span| span.contains(&f.span.start))
+        !tested_code(rules::IDLE_CONTROL.code, f) || !spans.iter().any(|span| span.contains(&f.span.start))
     });
 }
 

@@ -9,7 +9,7 @@ use crate::bind::scene::Models;
 use crate::run::Integrator;
 use crate::run::{Budget, Session, Start};
 use crate::spec::Lesson;
-use crate::verify::Stage;
+use crate::verify::RunCache;
 use labspec_core::reflect::{self, FieldId, Object, model};
 use labspec_core::{self as core, AccessSet, Data, Model, Obj, Plan, solver};
 use std::collections::BTreeMap;
@@ -89,7 +89,7 @@ pub fn basis(lesson: &Lesson, models: &Models, hash: Hash) -> Basis {
         LabBasis { lab: address.to_string(), block: block(&lab.span), model: one.map(compiled), settings }
     });
     let labs = labs.collect();
-    let stage = Stage::new(models);
+    let stage = RunCache::new(models);
     let claims = claims::owners(lesson).into_iter().filter_map(|(name, owner)| {
         let (verify, written, _) = owner.claim(lesson)?;
         let span = match &owner {
@@ -138,7 +138,7 @@ fn options(model: &Model) -> BTreeMap<&'static str, Vec<f64>> {
     written
         .into_iter()
         .zip(plain)
-        .filter(|((name, now), (_, default))| now != default && !is_reported(name))
+        .filter(|((name, current), (_, default))| current != default && !is_reported(name))
         .map(|(written, _)| written)
         .collect()
 }
@@ -172,9 +172,9 @@ fn contacts(model: &Model) -> BTreeMap<String, BTreeMap<&'static str, Vec<f64>>>
 /// The values of some fields of a model, with the names of the fields.
 fn numbers(model: &Model, fields: impl Iterator<Item = FieldId>) -> Vec<(&'static str, Vec<f64>)> {
     let data = Data::planned(model, Plan::new(model, &AccessSet::OBSERVE));
-    let of = |f: FieldId| {
+    let describe_field = |f: FieldId| {
         let view = core::view(model, &data, f).ok();
         view.map_or(Vec::new(), |view| (0..view.len()).filter_map(|i| view.get(i)).collect())
     };
-    fields.map(|f| (f.info().name, of(f))).collect()
+    fields.map(|f| (f.info().name, describe_field(f))).collect()
 }

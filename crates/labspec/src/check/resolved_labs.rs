@@ -4,7 +4,7 @@ use super::PreparedLab;
 use crate::finding::Finding;
 use crate::rules;
 use crate::spec::{Lab, Lesson, Verify, VerifyLab};
-use crate::verify::{self, BoundLab, BoundVerify, Stage};
+use crate::verify::{self, BoundLab, BoundVerify, RunCache};
 use labspec_core::Model;
 use std::sync::Arc;
 
@@ -20,7 +20,7 @@ pub(super) fn resolve_labs<'r>(
     ready: &'r [PreparedLab<'r>],
     verify: &'r Verify,
     lab: Option<&'r Lab>,
-    stage: &Stage<'_>,
+    stage: &RunCache<'_>,
     findings: &mut Vec<Finding>,
 ) -> Option<ResolvedLabs<'r>> {
     let base = match &verify.lab {
@@ -66,7 +66,7 @@ pub(super) fn bind_claim<'r>(
     ready: &'r [PreparedLab<'r>],
     verify: &'r Verify,
     lab: Option<&'r Lab>,
-    stage: &'r Stage<'r>,
+    stage: &'r RunCache<'r>,
 ) -> Option<BoundVerify<'r>> {
     bind_with_base(lesson, ready, verify, lab, stage).map(|(_, bound)| bound)
 }
@@ -77,7 +77,7 @@ fn bind_with_base<'r>(
     ready: &'r [PreparedLab<'r>],
     verify: &'r Verify,
     lab: Option<&'r Lab>,
-    stage: &'r Stage<'r>,
+    stage: &'r RunCache<'r>,
 ) -> Option<(Option<BoundLab<'r>>, BoundVerify<'r>)> {
     let ResolvedLabs { base, runs } = resolve_labs(lesson, ready, verify, lab, stage, &mut Vec::new())?;
     let bound = BoundVerify::new(verify, base.as_ref(), &runs, stage, &mut Vec::new())?;
@@ -98,7 +98,7 @@ pub(super) fn start_runs<'r>(
     ready: &'r [PreparedLab<'r>],
     verify: &'r Verify,
     lab: Option<&'r Lab>,
-    stage: &'r Stage<'r>,
+    stage: &'r RunCache<'r>,
 ) -> Option<StartedRuns> {
     let (base, bound) = bind_with_base(lesson, ready, verify, lab, stage)?;
     Some(StartedRuns { runs: bound.started_models(), model: base.map(|scene| scene.model) })
@@ -110,7 +110,7 @@ pub(super) fn record_curves<'r>(
     ready: &'r [PreparedLab<'r>],
     verify: &'r Verify,
     lab: Option<&'r Lab>,
-    stage: &'r Stage<'r>,
+    stage: &'r RunCache<'r>,
     most: usize,
 ) -> Vec<verify::Curves> {
     bind_claim(lesson, ready, verify, lab, stage).map_or(Vec::new(), |bound| bound.curves(most))

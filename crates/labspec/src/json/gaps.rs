@@ -1,9 +1,9 @@
 //! Reads the gaps between values: spaces, and characters that authors write as spaces or comments.
 
-use super::parser::Parser;
+use super::parser::JsonParser;
 use super::problem::{Mistake, Problem, RepeatedError};
 
-impl Parser<'_> {
+impl JsonParser<'_> {
     /// Advances to the next significant character. Comments and invisible characters are reported.
     pub(super) fn gap(&mut self) {
         while let Some(c) = self.peek() {

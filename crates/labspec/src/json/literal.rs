@@ -1,12 +1,12 @@
 //! Values without quotes: numbers, `true`, `false`, `null`, and other texts that authors write for them.
 
 use super::node::{Json, Node};
-use super::parser::Parser;
+use super::parser::JsonParser;
 use super::problem::{self, Mistake, Problem};
 use crate::source::Text;
 use std::ops::Range;
 
-impl Parser<'_> {
+impl JsonParser<'_> {
     /// Reads a number or a word, or a text without its quotes.
     pub(super) fn literal(&mut self) -> Node {
         let start = self.at;

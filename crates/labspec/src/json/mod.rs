@@ -36,6 +36,6 @@ pub const MAX_VALUES: usize = 20_000;
 pub const MAX_ERRORS: usize = 200;
 
 /// Serializes a value of one of our types.
-pub fn to_value(of: &impl serde::Serialize) -> serde_json::Value {
-    serde_json::to_value(of).unwrap_or_default()
+pub fn to_value(value: &impl serde::Serialize) -> serde_json::Value {
+    serde_json::to_value(value).unwrap_or_default()
 }

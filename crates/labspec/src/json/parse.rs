@@ -6,7 +6,7 @@
 //! end, and both are cached).
 
 use super::node::{Json, Member, Node};
-use super::parser::{LimitReached, Parser};
+use super::parser::{JsonParser, LimitReached};
 use super::problem::{self, Mistake, Problem};
 use super::{MAX_DEPTH, MAX_ERRORS, MAX_VALUES};
 use crate::source::{SourceMap, Text};
@@ -27,7 +27,7 @@ pub struct Parsed {
 
 /// Parses strict JSON with recovery from every error. `below` maps bytes of `text` to bytes of the file.
 pub fn parse(text: &str, below: &SourceMap) -> Parsed {
-    let mut parser = Parser::new(text, below);
+    let mut parser = JsonParser::new(text, below);
     let node = parser.root().unwrap_or(None);
     let broken = parser.broken;
     let mut problems = std::mem::take(&mut parser.placed);
@@ -67,7 +67,7 @@ fn try_repairs(text: &str, problems: &mut [Problem]) {
         if fits {
             repaired.replace_range(span.clone(), right);
             let below = SourceMap::verbatim(0..repaired.len());
-            let mut parser = Parser::new(&repaired, &below);
+            let mut parser = JsonParser::new(&repaired, &below);
             let _ = parser.root();
             let left = to_errors(&parser.finish());
             // The error itself must be gone, not only one that it caused.
@@ -80,7 +80,7 @@ fn try_repairs(text: &str, problems: &mut [Problem]) {
     }
 }
 
-impl Parser<'_> {
+impl JsonParser<'_> {
     fn root(&mut self) -> Result<Option<Node>, LimitReached> {
         self.gap();
         if self.rest().is_empty() {

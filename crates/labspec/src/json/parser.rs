@@ -10,7 +10,7 @@ use std::ops::Range;
 pub(super) struct LimitReached;
 
 /// The text, the current position, and the problems so far.
-pub(super) struct Parser<'a> {
+pub(super) struct JsonParser<'a> {
     pub(super) text: &'a str,
     pub(super) below: &'a SourceMap,
     pub(super) at: usize,
@@ -32,9 +32,9 @@ pub(super) struct Parser<'a> {
     next_line: usize,
 }
 
-impl<'a> Parser<'a> {
-    pub(super) fn new(text: &'a str, below: &'a SourceMap) -> Parser<'a> {
-        Parser {
+impl<'a> JsonParser<'a> {
+    pub(super) fn new(text: &'a str, below: &'a SourceMap) -> JsonParser<'a> {
+        JsonParser {
             text,
             below,
             at: 0,

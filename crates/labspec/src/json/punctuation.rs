@@ -1,10 +1,10 @@
 //! Commas and brackets, and recovery when one is missing or superfluous.
 
-use super::parser::Parser;
+use super::parser::JsonParser;
 use super::problem::{self, Mistake, Problem};
 use std::ops::Range;
 
-impl Parser<'_> {
+impl JsonParser<'_> {
     /// Reads the separator after a value: a comma, or the end of the enclosing value.
     pub(super) fn separator(&mut self, object: bool) {
         let mut end = self.before();

@@ -3,7 +3,7 @@
 //! A quote ends a text if JSON continues after it. Otherwise it is part of the text, or the closing quote is missing; the
 //! surrounding text decides between the two.
 
-use super::parser::Parser;
+use super::parser::JsonParser;
 use super::problem::{self, Mistake, RepeatedError, TextChange};
 use super::strings::{StringFault, decode};
 use crate::markdown::is_typographic;
@@ -14,7 +14,7 @@ use std::ops::Range;
 const MAX_LOOKAHEAD: usize = 4096;
 
 /// The end of a text.
-struct End {
+struct StringEnd {
     /// The range between its quotes.
     inside: Range<usize>,
     /// The position where parsing continues.
@@ -23,7 +23,7 @@ struct End {
     open: bool,
 }
 
-impl Parser<'_> {
+impl JsonParser<'_> {
     /// Whether a text begins with this character, in JSON or in common errors.
     pub(super) fn is_quote(&self, c: char) -> bool {
         matches!(c, '"' | '\'' | '`') || is_typographic(c)
@@ -77,7 +77,7 @@ impl Parser<'_> {
         Text { value: decoded.value, map: map.then(self.below) }
     }
 
-    fn string_end(&mut self, quote: char, key: bool) -> End {
+    fn string_end(&mut self, quote: char, key: bool) -> StringEnd {
         let from = self.at + quote.len_utf8();
         let mut at = from;
         while let Some(c) = self.text.get(at..).and_then(|t| t.chars().next()) {
@@ -91,17 +91,17 @@ impl Parser<'_> {
                 '\n' | '\r' if !self.goes_on(quote, next, key) => return self.line_ends(from, at, key),
                 _ if quote == '"' && c == '"' => {
                     if self.json_follows(next) {
-                        return End { inside: from..at, next, open: false };
+                        return StringEnd { inside: from..at, next, open: false };
                     }
                     if let Some(end) = self.lost_quote(from, at, key) {
-                        return End { inside: from..end, next: end, open: true };
+                        return StringEnd { inside: from..end, next: end, open: true };
                     }
                     if !self.is_inner(next) {
-                        return End { inside: from..at, next, open: false };
+                        return StringEnd { inside: from..at, next, open: false };
                     }
                 }
                 _ if closes(quote, c) && self.json_follows(next) => {
-                    return End { inside: from..at, next, open: false };
+                    return StringEnd { inside: from..at, next, open: false };
                 }
                 _ => {}
             }
@@ -120,7 +120,7 @@ impl Parser<'_> {
     }
 
     /// The end of a text without a closing quote on its line.
-    fn line_ends(&mut self, from: usize, line: usize, key: bool) -> End {
+    fn line_ends(&mut self, from: usize, line: usize, key: bool) -> StringEnd {
         let content = self.text.get(from..line).unwrap_or("").trim_end();
         let content = match content.find([':', '=']).filter(|_| key) {
             Some(colon) => content.get(..colon).unwrap_or("").trim_end(),
@@ -139,7 +139,7 @@ impl Parser<'_> {
             }
         };
         let end = from + content.len();
-        End { inside: from..end, next: end, open: true }
+        StringEnd { inside: from..end, next: end, open: true }
     }
 
     /// Whether JSON, or text intended as JSON, continues here after a text.

@@ -22,9 +22,11 @@ pub(super) fn to_finding(misfit: &Misfit) -> Finding {
 fn finding_at(span: Range<usize>, mistake: &Mistake) -> Finding {
     let open = || span.start..span.end.min(span.start + 1);
     match mistake {
-        Mistake::UnknownKey { of, key, meant } => rules::unknown_key::describe_key(span, of, key, meant),
-        Mistake::MissingKey { of, key, why, advised } => {
-            rules::missing_key::describe_missing(span, of, key, why, *advised)
+        Mistake::UnknownKey { object, key, meant } => {
+            rules::unknown_key::describe_key(span, object, key, meant)
+        }
+        Mistake::MissingKey { object, key, why, advised } => {
+            rules::missing_key::describe_missing(span, object, key, why, *advised)
         }
         Mistake::NoChoice => rules::select_options::not_a_pair(span),
         Mistake::NothingOffered => rules::select_options::no_options(open()),

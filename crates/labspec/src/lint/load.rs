@@ -3,7 +3,7 @@
 use super::ModelFolder;
 use crate::finding::{self, Finding, InFile};
 use crate::rules;
-use crate::source::{Asked, BadText, SourceFile, Sources};
+use crate::source::{BadText, PathQuery, SourceFile, Sources};
 use crate::spec::{LabAddress, Lesson, Other, Verify, VerifyLab, read_lesson, read_other};
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -133,7 +133,7 @@ fn read_other_file(lesson_path: &Path, other: &Path, sources: &Sources) -> Resul
     if !is_lesson(other) {
         return Err("a lab must be in a lesson (.md) or in a JSON file".into());
     }
-    let models = |path: &Path| sources.place(Asked::Models, path, || ModelFolder::find_near(path));
+    let models = |path: &Path| sources.place(PathQuery::Models, path, || ModelFolder::find_near(path));
     if models(lesson_path) != models(other) {
         return Err("that lesson has another model folder".into());
     }

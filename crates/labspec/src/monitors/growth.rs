@@ -238,8 +238,8 @@ pub fn observe<S: Scope>(w: &mut GrowthMonitor, m: &Model, d: &Data<S>) -> Optio
 
 /// Compares the energy of the current state with that of the start, or leaves the state to the next step.
 fn evaluate<S: Scope>(w: &mut GrowthMonitor, m: &Model, d: &Data<S>, start: StartEnergy) -> Option<Growth> {
-    let (copied, now) = (w.copied.fields(), d.fields());
-    if copied.ctrl != now.ctrl || scene_changed(w, d) || applied(d) {
+    let (copied, current) = (w.copied.fields(), d.fields());
+    if copied.ctrl != current.ctrl || scene_changed(w, d) || applied(d) {
         restart(w, m, d);
         return None;
     }
@@ -271,25 +271,25 @@ fn evaluate_pending<S: Scope>(w: &mut GrowthMonitor, m: &Model, d: &Data<S>, sta
 
 /// Whether positions of mocap bodies or active equality constraints differ from those of the start.
 fn scene_changed<S: Scope>(w: &GrowthMonitor, d: &Data<S>) -> bool {
-    let (copied, now) = (w.copied.fields(), d.fields());
-    copied.mocap_pos != now.mocap_pos
-        || copied.mocap_quat != now.mocap_quat
-        || copied.eq_active != now.eq_active
+    let (copied, current) = (w.copied.fields(), d.fields());
+    copied.mocap_pos != current.mocap_pos
+        || copied.mocap_quat != current.mocap_quat
+        || copied.eq_active != current.eq_active
 }
 
 /// Compares the energy of the state in `copied` with that of the start.
 fn compare(
     w: &mut GrowthMonitor,
     m: &Model,
-    now: Energy,
+    current: Energy,
     start: StartEnergy,
     has_mass_matrix: bool,
 ) -> Option<Growth> {
     let StartEnergy { energy: before, available_energy, lift } = start;
     update_inertia_scale(w, m, has_mass_matrix);
-    let given = before.potential() - now.potential();
-    let gain = now.kinetic - before.kinetic - given;
-    let there = available_energy + given.max(now.elastic.abs());
+    let given = before.potential() - current.potential();
+    let gain = current.kinetic - before.kinetic - given;
+    let there = available_energy + given.max(current.elastic.abs());
     let dof_of_negative_damping = dof_of_negative_damping(m, w.copied.fields());
     let sudden = if dof_of_negative_damping.is_some() { 1.0 } else { w.sudden };
     // A gain of NaN exceeds no bound.
@@ -302,7 +302,7 @@ fn compare(
         return None;
     }
     // Elastic energy oscillates with a large amplitude just below the stability limit, and returns.
-    let stiff = before.elastic != 0.0 || now.elastic != 0.0;
+    let stiff = before.elastic != 0.0 || current.elastic != 0.0;
     let turn = if stiff { 0.0 } else { largest_rotation(m, w.copied.fields()) };
     if w.lasted == 0 && w.leaps == 0 {
         w.since = w.copied.time();

@@ -38,7 +38,7 @@ pub struct SunkContact {
 /// The sizes of the geoms, and the deepest contact with its duration.
 #[derive(Clone, Debug)]
 pub struct SinkMonitor {
-    sizes: Vec<Size>,
+    sizes: Vec<GeomSize>,
     /// Contacts less deep than this are skipped, m.
     least: f64,
     pair: [usize; 2],
@@ -52,7 +52,7 @@ pub struct SinkMonitor {
 
 /// The size of a geom, m; both values are infinite for a geom without a size.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Size {
+pub(super) struct GeomSize {
     /// Its smallest extent.
     pub(super) thickness: f64,
     /// Its largest.
@@ -60,16 +60,16 @@ pub(super) struct Size {
 }
 
 /// The size of a geom.
-pub(super) fn size(m: &Model, g: usize) -> Size {
+pub(super) fn size(m: &Model, g: usize) -> GeomSize {
     let thickness = geom_thickness(m, g);
     let length = if thickness.is_finite() { 2.0 * m.geom_rbound[g] } else { f64::INFINITY };
-    Size { thickness, length }
+    GeomSize { thickness, length }
 }
 
 /// Starts monitoring the geoms of a model.
 pub fn watch(m: &Model) -> SinkMonitor {
-    let sizes: Vec<Size> = (0..m.ngeom).map(|g| size(m, g)).collect();
-    let least = |s: &Size| (THICKNESS * s.thickness).max(0.0);
+    let sizes: Vec<GeomSize> = (0..m.ngeom).map(|g| size(m, g)).collect();
+    let least = |s: &GeomSize| (THICKNESS * s.thickness).max(0.0);
     let least = sizes.iter().map(least).fold(f64::INFINITY, f64::min);
     SinkMonitor { sizes, least, pair: [0; 2], depth: 0.0, lasted: 0, since: 0.0, below: f64::INFINITY }
 }

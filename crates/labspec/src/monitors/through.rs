@@ -8,7 +8,7 @@
 //!
 //! The poses of the last two steps are compared only while a geom is fast relative to the thinnest wall and near a wall.
 
-use super::sunk::{Size, size};
+use super::sunk::{GeomSize, size};
 use labspec_core::math::rows;
 use labspec_core::reflect::Stage;
 use labspec_core::{Data, Fields, Model, Scope, may_touch};
@@ -39,7 +39,7 @@ pub struct Through {
 pub struct TunnellingMonitor {
     /// Geoms that can make contacts, and the sizes of all geoms.
     geoms: Vec<usize>,
-    sizes: Vec<Size>,
+    sizes: Vec<GeomSize>,
     thinnest: f64,
     pos: Vec<f64>,
     mat: Vec<f64>,
@@ -56,7 +56,7 @@ pub fn watch<S: Scope>(m: &Model, d: &Data<S>) -> TunnellingMonitor {
     let has_poses = plan.keeps(Stage::Collision) && plan.keeps(Stage::GeomPoses);
     let touches = |g: &usize| m.geom_contype[*g] != 0 || m.geom_conaffinity[*g] != 0;
     let geoms: Vec<usize> = (0..m.ngeom).filter(touches).filter(|_| has_poses).collect();
-    let sizes: Vec<Size> = (0..m.ngeom).map(|g| size(m, g)).collect();
+    let sizes: Vec<GeomSize> = (0..m.ngeom).map(|g| size(m, g)).collect();
     let thinnest = geoms.iter().map(|&g| sizes[g].thickness).fold(f64::INFINITY, f64::min);
     let poses = |n: usize| vec![0.0; n * m.ngeom];
     TunnellingMonitor {
@@ -126,15 +126,16 @@ fn measure(w: &mut TunnellingMonitor, f: &Fields) -> f64 {
 
 /// For every pair of a wall and a geom that is fast relative to it: whether it is near, and whether it passed through.
 fn walls(w: &TunnellingMonitor, m: &Model, f: &Fields) -> (bool, Option<Through>) {
-    let (now, mut near) = (rows::<3>(&f.geom_xpos), false);
+    let (current, mut near) = (rows::<3>(&f.geom_xpos), false);
     for &wall in w.geoms.iter().filter(|&&g| w.sizes[g].thickness.is_finite()) {
-        let Size { thickness, length } = w.sizes[wall];
+        let GeomSize { thickness, length } = w.sizes[wall];
         for &g in w.geoms.iter().filter(|&&g| g != wall && w.sizes[g].thickness.is_finite()) {
             let moved = w.moved[g] + w.moved[wall];
             if moved <= 0.5 * FAST_DISPLACEMENT * thickness {
                 continue;
             }
-            let gap = [0, 1, 2].map(|k| now[g][k] - now[wall][k]).map(|x| x * x).iter().sum::<f64>().sqrt();
+            let gap =
+                [0, 1, 2].map(|k| current[g][k] - current[wall][k]).map(|x| x * x).iter().sum::<f64>().sqrt();
             let soon = moved * (1.0 + MARGIN * f64::from(STEPS_PER_MEASUREMENT));
             if gap > 0.5 * (length + w.sizes[g].length) + soon || !may_touch(m, g, wall).unwrap_or(false) {
                 continue;

@@ -118,8 +118,8 @@ impl Player {
         let mut session = Session::start(Arc::new(programs), model, Start::of_lab(&lab));
         session.watch();
         let (controls, displayed) = (control::list(&lab), displayed::list(&lab));
-        let now = Saved { lab: Arc::clone(&lab), session, cells: Vec::new(), numbers: Vec::new() };
-        let mut player = Player { lab, file, loaded, controls, displayed, now, scene: None };
+        let current = Saved { lab: Arc::clone(&lab), session, cells: Vec::new(), numbers: Vec::new() };
+        let mut player = Player { lab, file, loaded, controls, displayed, current, scene: None };
         player.observe();
         player
     }

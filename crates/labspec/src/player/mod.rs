@@ -36,7 +36,7 @@ pub struct Player {
     loaded: Vec<Finding>,
     controls: Vec<Control>,
     displayed: Vec<DisplayedValue>,
-    now: Saved,
+    current: Saved,
     scene: Option<Scene>,
 }
 
@@ -67,17 +67,17 @@ impl Player {
 
     /// The current value of each trace and readout.
     pub fn values(&self) -> &[Cell] {
-        &self.now.cells
+        &self.current.cells
     }
 
     /// The current values as numbers; NaN for other values.
     pub fn numbers(&self) -> &[f64] {
-        &self.now.numbers
+        &self.current.numbers
     }
 
     /// What each readout shows now, as the page prints it.
     pub fn readout_texts(&self) -> Vec<String> {
-        let all = self.displayed.iter().zip(&self.now.cells);
+        let all = self.displayed.iter().zip(&self.current.cells);
         let text = |(displayed, cell): (&DisplayedValue, &Cell)| match displayed.place {
             DisplayedIn::Readout(digits) => Some(cell.rounded(digits)),
             DisplayedIn::Plot(_) => None,
@@ -87,12 +87,12 @@ impl Player {
 
     /// The current value of a control; `None` when there is no such control, `undefined` for a button.
     pub fn value<'w>(&self, which: impl Into<ControlKey<'w>>) -> Option<&Value> {
-        self.now.session.values().get(self.index(which.into()).ok()?)
+        self.current.session.values().get(self.index(which.into()).ok()?)
     }
 
     /// Simulated time, s.
     pub fn time(&self) -> f64 {
-        self.now.session.world.data.time()
+        self.current.session.world.data.time()
     }
 
     /// Current length of a step, s.
@@ -102,18 +102,18 @@ impl Player {
 
     /// The model, as changed by controls and programs.
     pub fn model(&self) -> &Model {
-        &self.now.session.world.model
+        &self.current.session.world.model
     }
 
     /// The data after the last step: state, inputs, and the fields that the programs of the lab read. [`Player::scene`] has
     /// all fields.
     pub fn data(&self) -> &Data<Planned> {
-        &self.now.session.world.data
+        &self.current.session.world.data
     }
 
     /// Whether the lab does not continue without a reset: it reached its `stopAt`, or it is frozen.
     pub fn is_over(&self) -> bool {
-        self.now.session.ended().is_some() || self.stop().is_some_and(|stop| self.time() >= stop)
+        self.current.session.ended().is_some() || self.stop().is_some_and(|stop| self.time() >= stop)
     }
 
     /// Moves a slider, or chooses an option by its value or its text.
@@ -155,8 +155,8 @@ impl Player {
 
     /// Resets the lab like the button of the page: controls, model and `ctx` keep their values. A frozen lab plays again.
     pub fn reset(&mut self) {
-        self.now.session.renew(Budget::TRIAL);
-        self.now.session.start_over();
+        self.current.session.renew(Budget::TRIAL);
+        self.current.session.start_over();
         self.observe();
     }
 
@@ -222,8 +222,8 @@ impl Player {
         let ahead = (time - self.time()).max(0.0);
         let steps = run::count_steps(&self.lab, Some(ahead), None, self.timestep())?.min(most);
         let stop = self.stop().unwrap_or(f64::INFINITY).min(time);
-        self.now.session.renew(Budget::ASKED);
-        let made = run::play(&mut self.now.session, &Play::steps(steps), |session, made| {
+        self.current.session.renew(Budget::ASKED);
+        let made = run::play(&mut self.current.session, &Play::steps(steps), |session, made| {
             each(session, made)?;
             if session.world.data.time() >= stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
@@ -234,12 +234,12 @@ impl Player {
     /// What the programs of the lab have asked of the page since the last call: to play, to pause, or to do the other of the
     /// two (`sim.play()`, `sim.pause()`, `sim.toggle()`).
     pub fn take_playback(&mut self) -> Option<Playback> {
-        self.now.session.world.playback.take()
+        self.current.session.world.playback.take()
     }
 
     /// All findings: those of loading the lab, and breakdowns since, with their times.
     pub fn findings(&self) -> Vec<Finding> {
-        let session = &self.now.session;
+        let session = &self.current.session;
         let done = self.done();
         let mut all = self.loaded.clone();
         let program_errors = session.program_errors.iter().map(|t| run::error_finding(t, &done));
@@ -251,7 +251,7 @@ impl Player {
 
     /// The state, for [`Player::restore`].
     pub fn save(&self) -> Saved {
-        self.now.clone()
+        self.current.clone()
     }
 
     /// Restores a saved state. The lab then continues with equal results, bit for bit.
@@ -264,19 +264,19 @@ impl Player {
                 "this state belongs to another lab, or was saved before this lab was loaded again".into(),
             ));
         }
-        self.now.clone_from(saved);
+        self.current.clone_from(saved);
         self.mark_scene_stale();
         Ok(())
     }
 
     /// The fields that the programs of the lab read: `data.qpos`, `model.opt.timestep`.
     pub fn reads(&self) -> Vec<String> {
-        names(&self.now.session.programs().access.reads)
+        names(&self.current.session.programs().access.reads)
     }
 
     /// The fields that the programs of the lab write.
     pub fn writes(&self) -> Vec<String> {
-        names(&self.now.session.programs().access.writes)
+        names(&self.current.session.programs().access.writes)
     }
 
     fn stop(&self) -> Option<f64> {
@@ -288,8 +288,8 @@ impl Player {
         if let Some(frozen) = self.frozen() {
             return Err(frozen);
         }
-        self.now.session.renew(Budget::TRIAL);
-        what(&mut self.now.session);
+        self.current.session.renew(Budget::TRIAL);
+        what(&mut self.current.session);
         self.observe();
         self.frozen().map_or(Ok(()), Err)
     }
@@ -297,13 +297,13 @@ impl Player {
     /// Updates the displayed values.
     fn observe(&mut self) {
         self.mark_scene_stale();
-        let mut row = self.now.session.sample().into_iter();
+        let mut row = self.current.session.sample().into_iter();
         // The first cell is the time.
         row.next();
-        self.now.cells.clear();
-        self.now.cells.extend(row);
-        self.now.numbers.clear();
-        self.now.numbers.extend(self.now.cells.iter().map(Cell::number));
+        self.current.cells.clear();
+        self.current.cells.extend(row);
+        self.current.numbers.clear();
+        self.current.numbers.extend(self.current.cells.iter().map(Cell::number));
     }
 
     fn mark_scene_stale(&mut self) {
@@ -312,7 +312,7 @@ impl Player {
 
     /// Why the lab is frozen, if an error stopped it.
     fn frozen(&self) -> Option<Error> {
-        let session = &self.now.session;
+        let session = &self.current.session;
         session.ended()?;
         let program_errors = session.program_errors.last().map(|t| run::error_finding(t, &self.done()));
         let all: Vec<Finding> =
@@ -326,7 +326,7 @@ impl Player {
 
     /// The finding about a lab that needs more work than a page allows.
     fn spent(&self) -> Option<Finding> {
-        let Some(End::Budget { time }) = self.now.session.ended() else { return None };
+        let Some(End::Budget { time }) = self.current.session.ended() else { return None };
         let what = format!(
             "the lab was stopped at t = {} s: it needs more work than a page allows",
             run::time(*time)
@@ -339,8 +339,12 @@ impl Player {
 
     /// Describes the changed controls, for findings.
     fn done(&self) -> String {
-        let moved = self.controls.iter().zip(self.now.session.values()).filter(|(c, now)| c.start != **now);
-        let list: Vec<String> = moved.map(|(c, now)| format!("\"{}\" at {now}", c.label)).collect();
+        let moved = self
+            .controls
+            .iter()
+            .zip(self.current.session.values())
+            .filter(|(c, current)| c.start != **current);
+        let list: Vec<String> = moved.map(|(c, current)| format!("\"{}\" at {current}", c.label)).collect();
         if list.is_empty() { "as it stands".into() } else { format!("with {}", list.join(", ")) }
     }
 
@@ -349,7 +353,7 @@ impl Player {
             ControlKey::Index(index) if index < self.controls.len() => Ok(index),
             ControlKey::Index(index) => Err(self.unknown(index)),
             ControlKey::Label(label) => {
-                let programs = self.now.session.programs();
+                let programs = self.current.session.programs();
                 let found = programs.control(label).map(|(index, _)| index);
                 found.ok_or_else(|| settings::unknown_control(label, programs).into())
             }

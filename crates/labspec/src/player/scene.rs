@@ -31,7 +31,7 @@ impl Player {
     /// # Errors
     /// As for [`Player::scene`].
     pub fn model_and_scene(&mut self) -> Result<(&Model, &Data<Full>), Error> {
-        let world = &self.now.session.world;
+        let world = &self.current.session.world;
         let scene = self.scene.get_or_insert_with(|| Scene { data: Data::new(&world.model), is_stale: true });
         if scene.is_stale {
             limit(&mut scene.data, Budget::TRIAL.left);

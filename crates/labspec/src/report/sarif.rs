@@ -25,15 +25,15 @@ struct Log<'a> {
     #[serde(rename = "$schema")]
     schema: &'a str,
     version: &'a str,
-    runs: [Run<'a>; 1],
+    runs: [SarifRun<'a>; 1],
 }
 
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
-struct Run<'a> {
+struct SarifRun<'a> {
     tool: Tool<'a>,
     column_kind: &'a str,
-    results: Vec<RunResult<'a>>,
+    results: Vec<SarifResult<'a>>,
 }
 
 #[derive(Serialize)]
@@ -75,7 +75,7 @@ struct Message<'a> {
 
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
-struct RunResult<'a> {
+struct SarifResult<'a> {
     rule_id: &'a str,
     rule_index: usize,
     level: &'a str,
@@ -83,7 +83,7 @@ struct RunResult<'a> {
     locations: [Location; 1],
     partial_fingerprints: BTreeMap<&'a str, String>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    fixes: Option<[Fix<'a>; 1]>,
+    fixes: Option<[SarifFix<'a>; 1]>,
 }
 
 #[derive(Serialize)]
@@ -117,7 +117,7 @@ struct Region {
 
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
-struct Fix<'a> {
+struct SarifFix<'a> {
     description: Message<'a>,
     artifact_changes: [ArtifactChange<'a>; 1],
 }
@@ -148,7 +148,7 @@ pub fn sarif(findings: &[Finding], files: &[&SourceFile]) -> Value {
     codes.sort_unstable();
     codes.dedup();
     let mut seen = BTreeMap::new();
-    let results = findings.iter().map(|f| RunResult {
+    let results = findings.iter().map(|f| SarifResult {
         rule_id: f.code,
         rule_index: codes.binary_search(&f.code).unwrap_or(0),
         level: f.severity.as_str(),
@@ -172,7 +172,7 @@ pub fn sarif(findings: &[Finding], files: &[&SourceFile]) -> Value {
     to_value(&Log {
         schema: "https://json.schemastore.org/sarif-2.1.0.json",
         version: "2.1.0",
-        runs: [Run {
+        runs: [SarifRun {
             tool: Tool {
                 driver: Driver {
                     name: "labspec",
@@ -208,13 +208,13 @@ fn region(f: &Finding, span: &Range<usize>, files: &[&SourceFile]) -> Option<Reg
 }
 
 /// The fix of a finding, if a program may apply it.
-fn fix<'a>(f: &'a Finding, files: &[&SourceFile]) -> Option<Fix<'a>> {
+fn fix<'a>(f: &'a Finding, files: &[&SourceFile]) -> Option<SarifFix<'a>> {
     let fix = f.fix.as_ref().filter(|fix| fix.applicability != Applicability::Display)?;
     let replacement = Replacement {
         deleted_region: region(f, &fix.span, files)?,
         inserted_content: fix.text.as_str().into(),
     };
-    Some(Fix {
+    Some(SarifFix {
         description: f.help.as_ref().unwrap_or(&f.message).into(),
         artifact_changes: [ArtifactChange { artifact_location: artifact(f), replacements: [replacement] }],
     })

@@ -15,37 +15,37 @@ use std::io::{self, Write};
 /// The type of the cells of a column, ignoring empty ones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
-enum Type {
+enum CellType {
     Number,
     Boolean,
     /// Texts, or values of several types, which are written as texts.
     Text,
 }
 
-impl Type {
+impl CellType {
     /// The type of a cell; `None` for an empty cell.
-    fn of_cell(cell: &Cell) -> Option<Type> {
+    fn of_cell(cell: &Cell) -> Option<CellType> {
         match cell {
-            Cell::Number(_) => Some(Type::Number),
-            Cell::Bool(_) => Some(Type::Boolean),
-            Cell::Text(_) => Some(Type::Text),
+            Cell::Number(_) => Some(CellType::Number),
+            Cell::Bool(_) => Some(CellType::Boolean),
+            Cell::Text(_) => Some(CellType::Text),
             Cell::Nothing => None,
         }
     }
 }
 
 /// The types of all columns. An empty column is a column of missing numbers.
-fn types(table: &Table) -> Vec<Type> {
-    let mut types: Vec<Option<Type>> = vec![None; table.columns.len()];
+fn types(table: &Table) -> Vec<CellType> {
+    let mut types: Vec<Option<CellType>> = vec![None; table.columns.len()];
     for row in &table.rows {
         for (column_type, cell) in types.iter_mut().zip(row) {
-            *column_type = match (*column_type, Type::of_cell(cell)) {
-                (Some(a), Some(b)) if a != b => Some(Type::Text),
+            *column_type = match (*column_type, CellType::of_cell(cell)) {
+                (Some(a), Some(b)) if a != b => Some(CellType::Text),
                 (a, b) => a.or(b),
             };
         }
     }
-    types.into_iter().map(|t| t.unwrap_or(Type::Number)).collect()
+    types.into_iter().map(|t| t.unwrap_or(CellType::Number)).collect()
 }
 
 /// A number as text, in the format of JavaScript, except that `-0` keeps its sign.
@@ -56,13 +56,13 @@ pub fn number_in_table(x: f64) -> String {
 /// The report `run`. Its rows and its list of nonfinite cells are written without copying them.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
-struct RunReport<'t, R: Serialize, N: Serialize> {
+struct TableReport<'t, R: Serialize, N: Serialize> {
     schema_version: u32,
     report: &'t str,
     version: &'t str,
     timestep: f64,
     columns: &'t [String],
-    types: &'t [Type],
+    types: &'t [CellType],
     rows: R,
     #[serde(serialize_with = "as_object")]
     warnings: &'t [(&'t str, usize)],
@@ -70,7 +70,7 @@ struct RunReport<'t, R: Serialize, N: Serialize> {
     breakdown: Option<&'t BreakdownRow<'t>>,
     breakdowns: &'t [BreakdownRow<'t>],
     #[serde(skip_serializing_if = "Option::is_none")]
-    nonfinite: Option<Nonfinite<'t, N>>,
+    nonfinite: Option<NonfiniteCells<'t, N>>,
 }
 
 #[derive(Serialize)]
@@ -83,7 +83,7 @@ struct BreakdownRow<'t> {
 
 /// The numbers that JSON cannot represent.
 #[derive(Serialize)]
-struct Nonfinite<'t, N: Serialize> {
+struct NonfiniteCells<'t, N: Serialize> {
     #[serde(skip_serializing_if = "Option::is_none")]
     timestep: Option<&'t str>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -99,17 +99,17 @@ impl<I: Iterator<Item: Serialize>, F: Fn() -> I> Serialize for Sequence<F> {
     }
 }
 
-fn cells_of<'t>(row: &'t [Cell], types: &'t [Type]) -> impl Serialize {
-    Sequence(move || row.iter().zip(types).map(|(cell, of)| TypedCell(cell, *of)))
+fn cells_of<'t>(row: &'t [Cell], types: &'t [CellType]) -> impl Serialize {
+    Sequence(move || row.iter().zip(types).map(|(cell, cell_type)| TypedCell(cell, *cell_type)))
 }
 
-struct TypedCell<'t>(&'t Cell, Type);
+struct TypedCell<'t>(&'t Cell, CellType);
 
 impl Serialize for TypedCell<'_> {
     fn serialize<S: Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
         match self {
-            TypedCell(Cell::Number(x), Type::Text) => out.serialize_str(&number_in_table(*x)),
-            TypedCell(Cell::Bool(b), Type::Text) => out.collect_str(b),
+            TypedCell(Cell::Number(x), CellType::Text) => out.serialize_str(&number_in_table(*x)),
+            TypedCell(Cell::Bool(b), CellType::Text) => out.collect_str(b),
             TypedCell(Cell::Number(x), _) => out.serialize_f64(*x),
             TypedCell(Cell::Text(text), _) => out.serialize_str(text),
             TypedCell(Cell::Bool(b), _) => out.serialize_bool(*b),
@@ -121,11 +121,11 @@ impl Serialize for TypedCell<'_> {
 /// Row, column and name of every number that JSON cannot represent, in columns of numbers.
 fn nonfinite_cells<'t>(
     rows: &'t [Vec<Cell>],
-    types: &'t [Type],
+    types: &'t [CellType],
 ) -> impl Iterator<Item = (usize, usize, &'static str)> {
     rows.iter().enumerate().flat_map(move |(row, cells)| {
-        cells.iter().zip(types).enumerate().filter_map(move |(column, (cell, of))| match cell {
-            Cell::Number(x) if *of == Type::Number => Some((row, column, nonfinite(*x)?)),
+        cells.iter().zip(types).enumerate().filter_map(move |(column, (cell, cell_type))| match cell {
+            Cell::Number(x) if *cell_type == CellType::Number => Some((row, column, nonfinite(*x)?)),
             _ => None,
         })
     })
@@ -157,7 +157,7 @@ impl Table {
         let breakdowns: Vec<BreakdownRow<'_>> = (self.breakdowns.iter())
             .map(|b| BreakdownRow { code: b.rule.code, what: &b.what, why: b.why, help: b.help() })
             .collect();
-        let report = RunReport {
+        let report = TableReport {
             schema_version: SCHEMA_VERSION,
             report: "run",
             version: concat!("labspec ", env!("CARGO_PKG_VERSION")),
@@ -169,7 +169,8 @@ impl Table {
             errors: &self.errors,
             breakdown: breakdowns.first(),
             breakdowns: &breakdowns,
-            nonfinite: (timestep.is_some() || cells.is_some()).then_some(Nonfinite { timestep, rows: cells }),
+            nonfinite: (timestep.is_some() || cells.is_some())
+                .then_some(NonfiniteCells { timestep, rows: cells }),
         };
         Ok(report.serialize(&mut serde_json::Serializer::with_formatter(out, Printable))?)
     }

@@ -53,7 +53,7 @@ mod tests {
 
     #[test]
     fn references_are_escaped() {
-        for (path, wanted) in [
+        for (path, expected) in [
             ("lessons/a.md", "lessons/a.md"),
             ("./a.md", "a.md"),
             ("../a b.md", "../a%20b.md"),
@@ -63,7 +63,7 @@ mod tests {
             ("/tmp/a.md", "file:///tmp/a.md"),
             ("it's (1)+@~.md", "it's%20(1)+@~.md"),
         ] {
-            assert_eq!(uri(path), wanted);
+            assert_eq!(uri(path), expected);
         }
     }
 

@@ -12,7 +12,7 @@ pub const ALLOWANCE_WITHOUT_REASON: &Rule = &Rule {
     good: Example::Lesson("# Fall\n\nA ball falls.\n"),
 };
 
-/// Whether an allowance gives a reason.
+/// Reports a suppression that gives no reason.
 pub(crate) fn check_reason(allowance: &Allowance) -> Option<Finding> {
     allowance.why.is_empty().then(|| {
         Finding::new(ALLOWANCE_WITHOUT_REASON, allowance.span.clone(), "this suppression gives no reason")

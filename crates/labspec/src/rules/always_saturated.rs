@@ -18,7 +18,7 @@ pub const ALWAYS_SATURATED: &Rule = &Rule {
     ),
 };
 
-/// Runs of fewer samples say nothing.
+/// Runs with fewer samples are inconclusive.
 const MIN_SAMPLES: usize = 10;
 
 pub(crate) fn check_saturation(observed: &ObservedLab<'_>, findings: &mut Vec<Finding>) {

@@ -1,5 +1,5 @@
 use super::Check;
-use super::wording::{Number, numbers, plain};
+use super::wording::{TextNumber, numbers, plain};
 use crate::spec::{Question, QuestionKind};
 use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
@@ -20,11 +20,11 @@ pub const ANSWER_AGAINST_EXPLANATION: &Rule = &Rule {
 
 pub(super) const CHECK: Check = Check::Question(check_question);
 
-/// Numbers that are as near as this, of the answer, are meant to be it.
+/// The relative difference below which a number of the explanation counts as the answer.
 const SAME_NUMBER: f64 = 0.02;
-/// Characters before and behind a number that say what it is.
+/// The number of characters before and after a number that are searched for its unit and meaning.
 const CONTEXT_LENGTH: usize = 60;
-/// How a slip changes a number.
+/// How a common mistake changes a number.
 const MISTAKE_FACTORS: [(f64, &str); 6] = [
     (-1.0, "the sign differs"),
     (10.0, "the explanation gives a tenth of the answer"),
@@ -39,7 +39,7 @@ fn check_question(question: &Question, findings: &mut Vec<Finding>) {
     let Some(explain) = &question.explain else { return };
     let key = answer.value;
     let decimals = format!("{key}").split_once('.').map_or(0, |(_, d)| d.len());
-    let is = |n: &Number, value: f64, decimals: usize| {
+    let is = |n: &TextNumber, value: f64, decimals: usize| {
         (n.value - value).abs() <= 0.5000001 * 0.1_f64.powi(n.decimals.min(decimals) as i32)
     };
     let html = explain.as_str();
@@ -48,7 +48,7 @@ fn check_question(question: &Question, findings: &mut Vec<Finding>) {
         return;
     }
     let unit = unit.as_ref().map_or(String::new(), |u| plain_unit(u.as_str()));
-    let result = |n: &&Number| (n.significant >= 2 || n.decimals >= 2) && is_result(html, n, &unit);
+    let result = |n: &&TextNumber| (n.significant >= 2 || n.decimals >= 2) && is_result(html, n, &unit);
     for n in all.iter().filter(result) {
         let slip = MISTAKE_FACTORS.iter().find(|(by, _)| is(n, key / by, decimals + 2) && n.value != 0.0);
         let why = match slip {
@@ -74,9 +74,9 @@ fn check_question(question: &Question, findings: &mut Vec<Finding>) {
     }
 }
 
-/// Whether a number is what a line of the explanation comes to: behind `=`, `≈`, `:` or `is`, in the unit of the answer.
-fn is_result(html: &str, n: &Number, unit: &str) -> bool {
-    // What stands near it.
+/// Whether a number is the result of a line of the explanation: it follows `=`, `≈`, `:` or `is`, and has the unit of the answer.
+fn is_result(html: &str, n: &TextNumber, unit: &str) -> bool {
+    // The text near the number.
     let back =
         html.get(..n.at.start).unwrap_or("").char_indices().rev().nth(CONTEXT_LENGTH).map_or(0, |(at, _)| at);
     let before = plain(html.get(back..n.at.start).unwrap_or(""));
@@ -85,13 +85,13 @@ fn is_result(html: &str, n: &Number, unit: &str) -> bool {
     let behind = ["=", "≈", ":", " is", "\\approx"].iter().any(|mark| before.ends_with(mark));
     let after: String = html.get(n.at.end..).unwrap_or("").chars().take(CONTEXT_LENGTH).collect();
     let after = plain_unit(&plain(&after));
-    // Another unit, another number.
+    // A number in another unit is another quantity.
     let ends = after.is_empty() || after.starts_with(['.', ',', ';', ')', ':']);
     let in_its_unit = !unit.is_empty() && after.starts_with(unit);
     behind && (ends || in_its_unit)
 }
 
-/// A unit, or what stands behind a number, without spaces and marks of formulas.
+/// A unit, or the text after a number, without spaces and formula markup.
 fn plain_unit(text: &str) -> String {
     text.chars()
         .filter(|c| !c.is_whitespace() && !"$\\^{}°".contains(*c))

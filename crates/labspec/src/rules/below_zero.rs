@@ -18,7 +18,8 @@ pub const BELOW_ZERO: &Rule = &Rule {
     ),
 };
 
-/// What is never negative: how labels call it, and what its expression has to hold, so that it is this and nothing else.
+/// Quantities that are never negative: the word of their labels, and the name that the expression must contain so that it reads
+/// only this quantity.
 const NONNEGATIVE_QUANTITIES: [(&str, &str, &str); 9] = [
     ("nq", "model.nq", "a number of coordinates"),
     ("nv", "model.nv", "a number of degrees of freedom"),
@@ -30,7 +31,7 @@ const NONNEGATIVE_QUANTITIES: [(&str, &str, &str); 9] = [
     ("normal force", "lib.normalForce", "a normal force"),
     ("speed", "hypot", "the magnitude of a velocity"),
 ];
-/// Below this, rounding may have made it negative.
+/// Values above this limit may be negative because of rounding.
 const ROUNDING: f64 = -1e-9;
 
 pub(crate) fn check_below_zero(observed: &ObservedLab<'_>, findings: &mut Vec<Finding>) {
@@ -55,7 +56,7 @@ pub(crate) fn check_below_zero(observed: &ObservedLab<'_>, findings: &mut Vec<Fi
             let numbers = column.filter(|(_, c)| matches!(c, Cell::Number(x) if x.is_finite()));
             numbers.map(|(t, c)| (t.number(), c.number()))
         };
-        // What is negative at times only may be a difference that is meant.
+        // A value that is negative only part of the time may be an intended difference.
         let lowest = numbers().min_by(|a, b| a.1.total_cmp(&b.1));
         let (Some((time, low)), false) = (lowest, numbers().any(|(_, x)| x > -ROUNDING)) else { continue };
         if low < ROUNDING {
@@ -76,7 +77,7 @@ pub(crate) fn check_below_zero(observed: &ObservedLab<'_>, findings: &mut Vec<Fi
     }
 }
 
-/// Whether a label is this word, with a unit or a name behind it at most: `time left` is another thing.
+/// Whether a label is this word, optionally followed by a unit or a name. `time left` is another quantity.
 fn is_label_of(label: &str, word: &str) -> bool {
     let lower = label.to_lowercase();
     let rest = match lower.strip_prefix(word) {

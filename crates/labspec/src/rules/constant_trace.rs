@@ -1,4 +1,4 @@
-//! What physics keeps constant is no mistake. It changes when the scene is put into another state.
+//! Traces of constants of the model. A value that physics conserves is not a mistake: it changes if the initial state changes.
 
 use crate::check::observations::{ObservedLab, column, constant, same};
 use crate::check::setconst::digits;
@@ -22,7 +22,7 @@ pub const CONSTANT_TRACE: &Rule = &Rule {
     ),
 };
 
-/// Fields of the model that say where things are when nothing has happened: data have the same under another name.
+/// Fields of the model that give the initial configuration, and the fields of data for the current one.
 const INITIAL_POSE_FIELDS: [(&str, &str); 8] = [
     ("qpos0", "data.qpos"),
     ("qpos_spring", "data.qpos"),
@@ -38,7 +38,7 @@ fn reads(effects: &Effects, which: impl Fn(FieldId) -> bool) -> bool {
     effects.reads.iter().filter_map(|a| FieldId::new(a.field.0 as usize)).any(which)
 }
 
-/// A trace that shows one number, whatever happens; `others` says that its plot has curves that move.
+/// Reports a trace that shows the same number in every run. `others`: whether other curves of its plot change.
 pub(crate) fn check_still_trace(
     observed: &mut ObservedLab<'_>,
     c: usize,
@@ -52,7 +52,7 @@ pub(crate) fn check_still_trace(
     let place = INITIAL_POSE_FIELDS
         .iter()
         .find(|(name, _)| reads(effects, |f| f.info().object == Object::Model && f.info().name == *name));
-    // Beside curves that move, a number of the model or of the lab may be meant as a line.
+    // Beside changing curves, a number of the model or of the lab may be intended as a reference line.
     if others && !data && place.is_none() {
         return None;
     }

@@ -1,7 +1,7 @@
-//! Controllers that keep the time of a contact: whether what they keep is a step late, by a run.
+//! Controllers that record the time of a contact. A run decides whether the recorded time is one step late.
 //!
-//! A step finds contacts from the positions at its start, at the time t, and ends at t + h. A controller that sees them before the
-//! next step, and keeps `data.time`, keeps t + h.
+//! A step detects contacts from the positions at its start, at time t, and ends at t + h. A controller that reads these contacts
+//! before the next step, and records `data.time`, records t + h.
 
 use crate::bind::{ModelNames, Scope};
 use crate::check::PreparedLab;
@@ -26,7 +26,7 @@ pub const CONTACT_TIME_LATE: &Rule = &Rule {
     ),
 };
 
-/// Work for the run.
+/// The work budget of the run.
 const WORK: Budget = Budget { left: 50_000_000 };
 
 pub(crate) fn check_contact_times(ready: &PreparedLab<'_>, findings: &mut Vec<Finding>) {
@@ -34,7 +34,7 @@ pub(crate) fn check_contact_times(ready: &PreparedLab<'_>, findings: &mut Vec<Fi
     let text = &controller.text;
     let names = |word: &str| text.value.contains(word);
     let effects = controller.program.effects();
-    // One that computes contacts anew sees those of now.
+    // A controller that recomputes contacts reads the current ones.
     let suspect = (names("ncon") || names("contact")) && names("time") && !effects.writes_everything;
     if !suspect || effects.ctx_writes.is_empty() {
         return;
@@ -57,8 +57,8 @@ pub(crate) fn check_contact_times(ready: &PreparedLab<'_>, findings: &mut Vec<Fi
     );
 }
 
-/// The variable that a new contact, and nothing else in the step before, sets to the time of the controller; that time;
-/// the timestep.
+/// The variable that a new contact, and no other event of the step before, sets to the time of the controller; that time; the
+/// timestep.
 fn late_variable(ready: &PreparedLab<'_>, slots: &[u32]) -> Option<(u32, f64, f64)> {
     let (lab, programs) = (ready.lab, &ready.programs);
     let start = Start { budget: WORK, ..Start::of_lab(lab) };
@@ -83,12 +83,12 @@ fn late_variable(ready: &PreparedLab<'_>, slots: &[u32]) -> Option<(u32, f64, f6
         };
         reads.iter().zip(&texts).map(one).collect()
     };
-    // As they were after the step before, and whether that one changed them.
+    // The values after the previous step, and whether that step changed them.
     let (mut previous, mut changed, mut contacts) =
         (values(&mut session), vec![true; slots.len()], usize::MAX);
     for _ in 0..steps {
         let fields = session.world.data.fields();
-        let (now, time) = (fields.ncon, session.world.data.time());
+        let (current, time) = (fields.ncon, session.world.data.time());
         session.step();
         if session.ended().is_some() {
             return None;
@@ -98,14 +98,14 @@ fn late_variable(ready: &PreparedLab<'_>, slots: &[u32]) -> Option<(u32, f64, f6
             let (before, after) = (previous.get(i).copied().flatten(), new.get(i).copied().flatten());
             let changes = before.map(f64::to_bits) != after.map(f64::to_bits);
             let quiet = changed.get(i).is_some_and(|c| !c);
-            if changes && quiet && now > contacts && time > 0.0 && after == Some(time) {
+            if changes && quiet && current > contacts && time > 0.0 && after == Some(time) {
                 return Some((*slot, time, session.world.model.opt.timestep));
             }
             if let Some(c) = changed.get_mut(i) {
                 *c = changes;
             }
         }
-        (previous, contacts) = (new, now);
+        (previous, contacts) = (new, current);
     }
     None
 }

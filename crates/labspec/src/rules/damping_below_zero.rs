@@ -1,4 +1,4 @@
-//! Dampers below zero that did not come to feed the scene without end, because something else holds what they push.
+//! Negative damping that does not make the energy grow without bound, because something else limits the motion.
 
 use crate::check::observations::{Move, ObservedLab, single_moves};
 use crate::check::setconst::digits;
@@ -22,9 +22,9 @@ pub const DAMPING_BELOW_ZERO: &Rule = &Rule {
     ),
 };
 
-/// Steps of the runs that are observed at.
+/// The number of steps of the observed runs.
 const STEPS: usize = 500;
-/// Words of a lab that means it.
+/// Words by which a lab states that negative damping is intended.
 const INTENTION_WORDS: [&str; 4] = ["negative", "below zero", "self-excit", "van der pol"];
 
 pub(crate) fn check_damping(observed: &ObservedLab<'_>, findings: &mut Vec<Finding>) {
@@ -58,7 +58,7 @@ pub(crate) fn check_damping(observed: &ObservedLab<'_>, findings: &mut Vec<Findi
     );
 }
 
-/// The damper below zero that gives the most: its degree of freedom and damping, W, when, and what was done.
+/// The damper with the largest power: its degree of freedom, damping, power in W, time, and the action of the run.
 fn most_powerful_damper(observed: &ObservedLab<'_>) -> Option<(usize, f64, f64, f64, String)> {
     let session = observed.bench.start();
     let poly = &session.world.model.dof_dampingpoly;

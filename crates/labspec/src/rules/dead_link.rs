@@ -3,7 +3,7 @@ use crate::lint::links::{LinkedFile, MOST, decoded, folder_of, linked_files};
 use crate::lint::root_of;
 use crate::markdown::html::tags;
 use crate::markdown::{self, Link, Scan};
-use crate::source::{Asked, MAX_FILE, SourceFile, Sources};
+use crate::source::{MAX_FILE, PathQuery, SourceFile, Sources};
 use crate::spec::Lesson;
 use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 use std::collections::BTreeSet;
@@ -20,12 +20,12 @@ pub const DEAD_LINK: &Rule = &Rule {
     good: Example::Lesson("# Falling\n\nSee [below](#bouncing).\n\n# Bouncing\n\nIt bounces.\n"),
 };
 
-/// Letters and digits of a heading or an anchor: sites write the rest in their own ways.
+/// The letters and digits of a heading or an anchor. Site generators differ in how they write other characters.
 fn anchor_letters(text: &str) -> String {
     text.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
 }
 
-/// Whether a text has this anchor: a heading, or an element with this id.
+/// Whether a text has this anchor: as a heading, or as the id of an element.
 fn has_anchor(text: &str, scan: &Scan, ids: &BTreeSet<String>, anchor: &str) -> bool {
     let meant = anchor_letters(anchor);
     // `fall-1` is the second heading "Fall".
@@ -40,14 +40,14 @@ fn has_anchor(text: &str, scan: &Scan, ids: &BTreeSet<String>, anchor: &str) -> 
     heading || ids.contains(anchor)
 }
 
-/// The names of places in the HTML of a text.
+/// The ids of elements in the HTML of a text.
 fn ids(text: &str, scan: &Scan) -> BTreeSet<String> {
     let tags = scan.html.iter().filter_map(|html| text.get(html.clone())).flat_map(tags);
     let attributes = tags.flat_map(|tag| tag.attributes);
     attributes.filter(|(name, _)| name == "id" || name == "name").map(|(_, value)| value).collect()
 }
 
-/// What a site numbers itself, or names after an id.
+/// Whether a site generator creates this anchor: a number, or a name derived from an id.
 fn is_generated_anchor(lesson: &Lesson, anchor: &str) -> bool {
     let meant = anchor_letters(anchor);
     let numbered = ["lab", "quiz", "fig", "figure", "eq", "equation", "tab", "table", "top", "ref", "fn"];
@@ -56,7 +56,7 @@ fn is_generated_anchor(lesson: &Lesson, anchor: &str) -> bool {
     numbered.contains(&stem) || ids.into_iter().any(|id| !id.is_empty() && meant.contains(&id))
 }
 
-/// Anchors of the lesson itself.
+/// Checks links to anchors of the lesson itself.
 pub(crate) fn check_anchors(lesson: &Lesson, findings: &mut Vec<Finding>) {
     let text = lesson.file.text();
     let mut ids_here = None;
@@ -69,13 +69,13 @@ pub(crate) fn check_anchors(lesson: &Lesson, findings: &mut Vec<Finding>) {
     }
 }
 
-/// Files that links of a lesson name, and headings of those that are lessons. Nothing outside of the root is looked at.
+/// Checks the files that links of a lesson name, and the headings of linked lessons. Files outside the root are never opened.
 pub(crate) fn check_files(lesson: &Lesson, path: &Path, sources: &Sources, findings: &mut Vec<Finding>) {
     let folder = folder_of(path, sources);
     let mut root = None;
     for LinkedFile { link, path, extension, anchor } in linked_files(lesson, &folder) {
         let root = root.get_or_insert_with(|| {
-            let found = sources.place(Asked::Root, &folder, || Some(root_of(&folder, &[])));
+            let found = sources.place(PathQuery::Root, &folder, || Some(root_of(&folder, &[])));
             found.unwrap_or_default()
         });
         if !path.starts_with(&*root) {

@@ -13,7 +13,7 @@ pub const DUPLICATE_KEY: &Rule = &Rule {
     good: Example::Lab(r#"{"model": "ball", "stopAt": 2}"#),
 };
 
-/// A key that stands twice; `first` is where it stands first.
+/// Reports a repeated key. `first`: the place of its first occurrence.
 pub(crate) fn duplicate(span: Range<usize>, key: &str, first: Option<Range<usize>>) -> Finding {
     let key = if key.is_empty() { "a key without a name".into() } else { format!("`{}`", shorten(key)) };
     let finding = Finding::new(DUPLICATE_KEY, span, format!("{key} appears twice in one object"))

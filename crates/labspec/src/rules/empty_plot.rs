@@ -14,7 +14,7 @@ pub const EMPTY_PLOT: &Rule = &Rule {
     ),
 };
 
-/// A plot without traces.
+/// Reports a plot without traces.
 pub(crate) fn without_traces(span: Range<usize>) -> Finding {
     Finding::new(EMPTY_PLOT, span, "this plot has no traces")
         .help("add \"traces\": [{\"label\": \"height (m)\", \"expr\": \"data.qpos[2]\"}]")

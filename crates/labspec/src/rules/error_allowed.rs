@@ -16,7 +16,7 @@ pub const ERROR_ALLOWED: &Rule = &Rule {
     ),
 };
 
-/// A code of an allowance that would suppress an error.
+/// Reports a suppression of an error.
 pub(crate) fn refuse(code: &str, span: Range<usize>) -> Finding {
     Finding::new(ERROR_ALLOWED, span, format!("`{code}` is an error and cannot be suppressed"))
         .help("fix the error, then delete this code")

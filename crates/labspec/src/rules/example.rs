@@ -1,6 +1,6 @@
-//! The examples of rules as files that can be checked.
+//! Converts the examples of rules to files that can be checked.
 
-/// The model that the expressions and statements of examples are about: a free ball, an arm on a hinge with a motor.
+/// The model that the expressions and statements of examples use: a free ball, an arm on a hinge with a motor.
 pub const MODEL: &str = "<mujoco><worldbody><geom name='floor' type='plane' size='2 2 .1'/>\
     <body name='ball' pos='0 0 1'><freejoint name='ball'/><geom name='ball' size='.1' mass='1'/></body>\
     <body name='arm' pos='1 0 1'><joint name='hinge' axis='0 1 0'/>\
@@ -8,7 +8,7 @@ pub const MODEL: &str = "<mujoco><worldbody><geom name='floor' type='plane' size
     <actuator><motor name='motor' joint='hinge'/></actuator>\
     <keyframe><key name='home' qpos='0 0 1 1 0 0 0 0'/></keyframe></mujoco>";
 
-/// A lab of a ball that falls, and what is stored of what it shows.
+/// A lab with a falling ball, and a snapshot of its displays.
 pub(super) const FALL: &[u8] = br#"{"xml": "<mujoco><worldbody><body pos='0 0 1'><freejoint/><geom size='.1'/></body></worldbody></mujoco>", "stopAt": 0.2, "readouts": [{"label": "height (m)", "expr": "data.qpos[2]", "digits": 3}]}"#;
 pub(super) const STORED: &[u8] = br##"labspec snapshot 1
 
@@ -31,7 +31,7 @@ mod files {
     use serde_json::{Value, json};
     use std::ops::Range;
 
-    /// An example as files, by their names; the first is the one to check. A name that ends with `/` is a folder.
+    /// The files of an example, by name. The first one is checked. A name that ends with `/` is a folder.
     pub fn files(example: &Example) -> Vec<(String, Vec<u8>)> {
         let lab = match example {
             Example::Expression(_) | Example::Long(..) => {
@@ -49,12 +49,12 @@ mod files {
         vec![(example.name().to_string(), format!("```lab simlab\n{lab}\n```\n").into_bytes())]
     }
 
-    /// Bytes of the first of an example's files that its rule points at; `None` where the example does not mark them.
+    /// The byte range in the first file of an example at which its rule reports. `None` if the example does not mark one.
     pub fn marked(example: &Example) -> Option<Range<usize>> {
         let mark = example.marked()?;
         match example {
             Example::Expression(_) | Example::Statements(_) | Example::Long(..) => {
-                // The code stands in a JSON text, where some characters are written as two.
+                // The code is in a JSON string, which escapes some characters.
                 let code = example.text();
                 let (_, file) = files(example).into_iter().next()?;
                 let file = String::from_utf8(file).ok()?;

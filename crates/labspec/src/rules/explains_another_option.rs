@@ -21,7 +21,7 @@ pub const EXPLAINS_ANOTHER_OPTION: &Rule = &Rule {
 pub(super) const CHECK: Check = Check::Question(check_question);
 
 const ORDINALS: [&str; 6] = ["first", "second", "third", "fourth", "fifth", "sixth"];
-/// Options that have a letter.
+/// The number of options that have a letter.
 const MAX_OPTIONS: usize = 26;
 const OPTION_NOUNS: [&str; 3] = ["option", "answer", "choice"];
 const RIGHT: [&str; 2] = ["right", "correct"];
@@ -58,7 +58,7 @@ fn letter(i: usize) -> char {
     u8::try_from(i).ok().and_then(|i| b'A'.checked_add(i)).map_or('?', char::from)
 }
 
-/// Whether a text says of this option, in so many words, that it is the right one.
+/// Whether a text explicitly calls this option correct.
 fn calls_correct(text: &str, i: usize, option: &str) -> bool {
     let letter = letter(i).to_lowercase().to_string();
     let words = normalized_words(option);

@@ -16,7 +16,7 @@ pub const FENCE_KIND: &Rule = &Rule {
     ),
 };
 
-/// A fence of the wrong kind.
+/// Reports a fence of the wrong kind.
 pub(crate) fn holds(span: Range<usize>, message: &str, kind: &str, right: &str) -> Finding {
     Finding::new(FENCE_KIND, span.clone(), message).help(format!("write ```{kind}")).fix(span, right)
 }

@@ -14,7 +14,7 @@ pub const FENCE_LINE: &Rule = &Rule {
     good: Example::Lesson("```lab simlab\n{\"model\": \"ball\"}\n```\n"),
 };
 
-/// Content on the opening line, beginning at `rest`.
+/// Reports content on the opening line that begins at `rest`.
 pub(crate) fn text_on_line(text: &str, open: &Opener, rest: Range<usize>, kind: &BlockKind) -> Finding {
     let what = match kind {
         BlockKind::Code { .. } => "a listing begins on the opening line of its fence",

@@ -18,7 +18,7 @@ pub const FENCE_MISSING: &Rule = &Rule {
     ),
 };
 
-/// A lab or a quiz without a fence.
+/// Reports a lab or a quiz without a fence.
 pub(crate) fn missing(text: &str, object: &Range<usize>, kind: &BlockKind) -> Finding {
     let (what, fence) = match kind {
         BlockKind::Quiz => ("a quiz", "```quiz"),

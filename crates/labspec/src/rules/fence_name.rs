@@ -12,7 +12,7 @@ pub const FENCE_NAME: &Rule = &Rule {
     good: Example::Lesson("```lab simlab\n{\"model\": \"ball\", \"plots\": []}\n```\n"),
 };
 
-/// A fence that was meant to be another kind.
+/// Reports a fence whose kind is misspelt.
 pub(crate) fn misspelt(open: &Opener, right: &str) -> Finding {
     Finding::new(FENCE_NAME, open.head.clone(), "the kind of this fence is misspelt")
         .help(format!("write {}{right}", open.closing()))

@@ -12,7 +12,7 @@ pub const FENCE_UNCLOSED: &Rule = &Rule {
     good: Example::Lesson("```lab simlab\n{\"model\": \"ball\"}\n```\n\nNow press play.\n"),
 };
 
-/// A fence without its closing line: `end` is where its content ends, `resume` where the lesson goes on.
+/// Reports a fence without its closing line. `end`: the end of its content; `resume`: where parsing of the lesson continues.
 pub(crate) fn unclosed(
     text: &str,
     open: &Opener,
@@ -46,7 +46,7 @@ pub(crate) fn unclosed(
     }
 }
 
-/// A line to put in behind what ends at `end`; what follows there goes to the line after it.
+/// A line to insert after `end`. The text that follows `end` moves to the next line.
 pub(super) fn line_below(text: &str, end: usize, prefix: &str, line: &str) -> String {
     let rest = text.get(end..).and_then(|t| t.lines().next()).unwrap_or("");
     let after = if rest.trim().is_empty() { String::new() } else { format!("\n{prefix}") };

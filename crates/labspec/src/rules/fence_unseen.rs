@@ -12,7 +12,7 @@ pub const FENCE_UNSEEN: &Rule = &Rule {
     good: Example::Lesson("<div>\n\n```lab simlab\n{\"model\": \"ball\"}\n```\n\n</div>\n"),
 };
 
-/// A fence inside of an indented code block.
+/// Reports a fence inside an indented code block.
 pub(crate) fn indented(open: &Opener) -> Finding {
     Finding::new(FENCE_UNSEEN, open.head.clone(), "a lab or a quiz is indented like code, so it is not read")
         .why("Markdown shows lines with four spaces of indentation as they are")
@@ -20,7 +20,7 @@ pub(crate) fn indented(open: &Opener) -> Finding {
         .severity(Severity::Warning)
 }
 
-/// A fence that Markdown does not see.
+/// Reports an opening line that Markdown does not read as a fence.
 pub(crate) fn unseen(open: &Opener) -> Finding {
     Finding::new(FENCE_UNSEEN, open.head.clone(), "Markdown does not read this line as a fence")
         .help("put an empty line above it, and only the kind of the fence on the line itself")

@@ -21,16 +21,16 @@ pub const FORMULA_UNBALANCED: &Rule = &Rule {
     ),
 };
 
-/// Longest formula that is looked for, characters.
+/// The maximum length of a formula, characters.
 const MAX_FORMULA: usize = 4000;
-/// Longest name of an environment, bytes.
+/// The maximum length of the name of an environment, bytes.
 const MAX_NAME: usize = 40;
 
-/// How formulas begin and end. A dollar counts only where a page takes it for one.
+/// The delimiters of formulas. A dollar counts only where a page reads it as a delimiter.
 const DELIMITERS: [(&str, &str); 4] = [("$$", "$$"), ("$", "$"), ("\\(", "\\)"), ("\\[", "\\]")];
 
-/// What is wrong, and where. `plain`: brackets behind a backslash are brackets, as in Markdown. `work` grows by the characters that
-/// are looked at: at most [`MAX_READS`] for each of the text.
+/// The faults of a text, with their places. `plain`: escaped brackets are brackets, as in Markdown. `work` counts the characters
+/// that are read: at most [`MAX_READS`] for each character of the text.
 fn faults(text: &str, plain: bool, work: &mut usize) -> Vec<(Range<usize>, String)> {
     let (mut faults, mut lost) = (Vec::new(), 0);
     let mut at = 0;
@@ -47,7 +47,7 @@ fn faults(text: &str, plain: bool, work: &mut usize) -> Vec<(Range<usize>, Strin
         };
         let inside = rest.get(open.len()..).unwrap_or("");
         let Some(length) = closing(inside, close, work) else {
-            // Each of these is a walk through what follows.
+            // Each of these scans the text that follows.
             lost += 1;
             if lost > MAX_IN_TEXT {
                 break;
@@ -55,7 +55,7 @@ fn faults(text: &str, plain: bool, work: &mut usize) -> Vec<(Range<usize>, Strin
             if faults.len() < MAX_IN_TEXT && is_formula(inside, open, work) {
                 faults.push((at..at + open.len(), format!("the formula that `{open}` opens is not closed")));
             }
-            // What follows is read as text.
+            // The text that follows is read as prose.
             at += open.len();
             continue;
         };
@@ -69,7 +69,7 @@ fn faults(text: &str, plain: bool, work: &mut usize) -> Vec<(Range<usize>, Strin
     faults
 }
 
-/// Where a formula ends: a dollar behind a backslash is none, and one before a digit begins a price.
+/// Where a formula ends. An escaped dollar does not end it, and a dollar before a digit starts a price.
 fn closing(inside: &str, close: &str, work: &mut usize) -> Option<usize> {
     let mut escaped = false;
     for (i, c) in inside.char_indices().take(MAX_FORMULA) {
@@ -84,7 +84,7 @@ fn closing(inside: &str, close: &str, work: &mut usize) -> Option<usize> {
                 return Some(i);
             }
         }
-        // No formula goes on behind an empty line.
+        // An empty line ends a formula.
         if rest.starts_with("\n\n") {
             return None;
         }
@@ -93,23 +93,23 @@ fn closing(inside: &str, close: &str, work: &mut usize) -> Option<usize> {
     None
 }
 
-/// Whether what follows an opening mark looks like a formula: a price does not.
+/// Whether the text after an opening delimiter looks like a formula. A price does not.
 fn is_formula(inside: &str, open: &str, work: &mut usize) -> bool {
     let end = inside.char_indices().nth(MAX_FORMULA).map_or(inside.len(), |(at, _)| at);
     let inside = inside.get(..end).unwrap_or("").split("\n\n").next().unwrap_or("");
     *work += end;
-    // A letter alone is the name of a quantity: `$g is`. A price begins with a digit, a name of a shell is longer.
+    // A single letter is the name of a quantity: `$g is`. A price begins with a digit; the name of a shell variable is longer.
     let letters = inside.chars().take_while(|c| c.is_alphabetic()).count();
     let tex = inside.contains(['\\', '^', '_', '{']) || letters == 1;
     open != "$" || (tex && !inside.starts_with(|c: char| c.is_whitespace()))
 }
 
-/// Most times that a character is looked at: each mark that nothing closes is a walk through what follows, and a second one to see
-/// whether that is a formula.
+/// The maximum number of times that a character is read. Each unclosed delimiter causes one scan of the text that follows, and a
+/// second one that decides whether it is a formula.
 #[cfg(test)]
 const MAX_READS: usize = 2 * MAX_IN_TEXT + MAX_NAME + 3;
 
-/// What is opened in a formula and not closed, in words.
+/// Describes what a formula opens and does not close.
 fn unbalanced(body: &str, work: &mut usize) -> Option<String> {
     let (mut depth, mut left) = (0_i64, 0_i64);
     let mut inner: Vec<&str> = Vec::new();
@@ -152,7 +152,7 @@ fn unbalanced(body: &str, work: &mut usize) -> Option<String> {
     }
 }
 
-/// The text with code taken out, byte for byte.
+/// The text with code replaced by blanks, of the same length in bytes.
 fn without_code(text: &str, code: impl Iterator<Item = Range<usize>>) -> String {
     let mut bytes = text.as_bytes().to_vec();
     for range in code {
@@ -160,11 +160,11 @@ fn without_code(text: &str, code: impl Iterator<Item = Range<usize>>) -> String 
             part.fill(b' ');
         }
     }
-    // Whole stretches between characters: still UTF-8.
+    // Only ranges between characters are replaced, so the text is still UTF-8.
     String::from_utf8(bytes).unwrap_or_default()
 }
 
-/// Stretches of a text of HTML that are code.
+/// The ranges of code in a text of HTML.
 fn code(html: &str) -> Vec<Range<usize>> {
     let (mut all, mut open) = (Vec::new(), [None, None]);
     for tag in tags(html) {
@@ -183,14 +183,14 @@ fn finding(span: Range<usize>, message: String) -> Finding {
     Finding::new(FORMULA_UNBALANCED, span, message).help("close it, or write `\\$` for a dollar sign")
 }
 
-/// Looks into a text of a lab or a quiz.
+/// Checks a text of a lab or a quiz.
 pub(crate) fn check_formulas(text: &Text, findings: &mut Vec<Finding>) {
     let html = without_code(text.as_str(), code(text.as_str()).into_iter());
     let found = faults(&html, false, &mut 0).into_iter().take(MAX_IN_TEXT);
     findings.extend(found.map(|(at, message)| finding(text.span_of(at), message)));
 }
 
-/// Looks into the paragraphs of a lesson.
+/// Checks the paragraphs of a lesson.
 pub(crate) fn check_prose(lesson: &Lesson, findings: &mut Vec<Finding>) {
     let text = lesson.file.text();
     for range in lesson.scan.paragraphs.iter().take(10 * MAX_IN_TEXT) {
@@ -245,7 +245,7 @@ mod tests {
         assert_eq!(faults(&without_code(html, code(html).into_iter())), []);
     }
 
-    /// A megabyte of whatever opens something: no character is looked at more than a fixed number of times.
+    /// A megabyte of each opening delimiter: no character is read more often than the limit.
     #[test]
     fn hostile_texts_take_bounded_work() {
         const MEGABYTE: usize = 1 << 20;
@@ -279,13 +279,13 @@ mod tests {
                 let found = faults(&text, plain, &mut work);
                 assert!(work <= MAX_READS * text.len(), "{piece:?}: {work}");
                 assert!(found.len() <= text.len());
-                // What is opened once and never closed costs no more than a look at each, and so many walks of a formula's length.
+                // Unclosed delimiters cost one read each, and a limited number of scans of a formula's length.
                 if piece == "$a" || piece == "\\left(" || piece == "{" {
                     assert!(work <= 3 * text.len() + 2 * MAX_IN_TEXT * MAX_FORMULA, "{piece:?}: {work}");
                 }
             }
         }
-        // Many short texts, as a quiz may have.
+        // Many short formulas, as in a quiz.
         let text = "$a ".repeat(60);
         let mut work = 0;
         (0..1000).for_each(|_| drop(faults(&text, false, &mut work)));

@@ -23,17 +23,17 @@ pub const GOES_ON: &Rule = &Rule {
     ),
 };
 
-/// When the control is moved, steps.
+/// The step at which the control is moved.
 const STEPS: usize = 50;
-/// What a sentence says that means a new start: one word, or one with another behind it.
+/// Phrases that mean a restart: complete, or followed by another word.
 const STARTS: [&str; 3] = ["restarts", "resets the", "resets it"];
 const BEGINS: [&str; 4] = ["starts ", "begins ", "drops ", "lets "];
 const AGAIN: [&str; 3] = [" again", " anew", " over"];
-/// Who does it, and what it may not say besides.
+/// Phrases for the cause of a restart, and words that exclude it.
 const CHANGES: [&str; 5] = ["moving", "changing", "each slider", "every slider", "slider change"];
 const ELSE: [&str; 6] = ["button", "not", "press", "click", "then", "after"];
 
-/// Whether a sentence says that a change starts the lab again.
+/// Whether a sentence claims that a change restarts the lab.
 fn claims_restart(sentence: &str) -> bool {
     let contains_any = |words: &[&str]| words.iter().any(|w| sentence.contains(w));
     (contains_any(&STARTS) || contains_any(&BEGINS) && contains_any(&AGAIN))
@@ -81,7 +81,7 @@ pub(crate) fn check_repeats(observed: &ObservedLab<'_>, findings: &mut Vec<Findi
     }
 }
 
-/// Whether a sentence is about a control: about any slider, about the one that there is, or about this one by a word of its label.
+/// Whether a sentence is about a control: about any slider, about the only one, or about this one, by a word of its label.
 fn mentions_control(sentence: &str, control: &Control, one: bool) -> bool {
     let slider = matches!(control.kind, ControlKind::Slider { .. });
     let words = ["a slider", "each slider", "every slider"];

@@ -17,13 +17,13 @@ pub const HTML_ELEMENT: &Rule = &Rule {
     ),
 };
 
-/// Elements that hold nothing and are not closed.
+/// Void elements, which have no content and no closing tag.
 pub(super) const VOID: [&str; 13] =
     ["area", "base", "br", "col", "embed", "hr", "img", "input", "link", "meta", "source", "track", "wbr"];
-/// Elements that end by themselves where the next one begins, or where what holds them ends.
+/// Elements whose closing tag is optional: the next element, or the end of the parent, closes them.
 pub(super) const SELF_CLOSING: [&str; 13] =
     ["p", "li", "dt", "dd", "tr", "td", "th", "thead", "tbody", "tfoot", "colgroup", "option", "optgroup"];
-/// All others of HTML that a lesson may want.
+/// All other HTML elements that a lesson may use.
 #[rustfmt::skip]
 const KNOWN: [&str; 77] = [
     "a", "abbr", "address", "article", "aside", "audio", "b", "bdi", "bdo", "big", "blockquote", "button",
@@ -35,12 +35,12 @@ const KNOWN: [&str; 77] = [
     "u", "ul", "var", "video",
 ];
 
-/// Whether HTML has an element, foreign ones and those of its own kind aside.
+/// Whether HTML has an element, except foreign and custom elements.
 pub(super) fn is_element(name: &str) -> bool {
     VOID.contains(&name) || SELF_CLOSING.contains(&name) || KNOWN.contains(&name)
 }
 
-/// An element that HTML does not have.
+/// Reports an element that HTML does not have.
 pub(super) fn unknown(span: Range<usize>, name: &str) -> Finding {
     Finding::new(HTML_ELEMENT, span, format!("HTML has no element `{}`", shorten(name)))
         .help("write `&lt;` for `<` if this is not an element")

@@ -22,10 +22,10 @@ pub const HTML_NESTING: &Rule = &Rule {
     ),
 };
 
-/// Elements with elements of their own.
+/// Foreign elements, which contain elements that are not HTML.
 const FOREIGN_ELEMENTS: [&str; 2] = ["svg", "math"];
 
-/// Most tags of a text that are looked at.
+/// The maximum number of tags of a text that are checked.
 const MAX_TAGS: usize = 3000;
 
 /// What is wrong with a tag.
@@ -33,11 +33,11 @@ const MAX_TAGS: usize = 3000;
 enum MarkupFault {
     /// HTML has no such element.
     Unknown,
-    /// Nothing closes it.
+    /// No tag closes it.
     Unclosed,
-    /// Nothing is open that it would close.
+    /// No open element matches the closing tag.
     Unopened,
-    /// It closes an element while this one, within it, is open.
+    /// It closes an element while this inner element is open.
     Crossed(String),
 }
 
@@ -52,7 +52,7 @@ fn faults(html: &str) -> Vec<(Range<usize>, String, MarkupFault)> {
         let opening = open.iter().rposition(|t| t.name == tag.name);
         if tag.closing {
             match opening {
-                // `</p>` alone makes an empty paragraph, `</br>` a break: nobody sees a difference.
+                // A lone `</p>` makes an empty paragraph, and a lone `</br>` a line break: readers see no difference.
                 None if is_of_models(name) || VOID.contains(&name) => {}
                 None if !of_html && !foreign => faults.push((tag.at, tag.name, MarkupFault::Unknown)),
                 None => faults.push((tag.at, tag.name, MarkupFault::Unopened)),
@@ -65,7 +65,7 @@ fn faults(html: &str) -> Vec<(Range<usize>, String, MarkupFault)> {
                 }
             }
         } else if is_of_models(name) && !foreign {
-            // Told as what it is: an element of models.
+            // Another rule reports elements of models.
         } else if !of_html && !foreign && !name.contains('-') {
             faults.push((tag.at, tag.name, MarkupFault::Unknown));
         } else if !(VOID.contains(&name)
@@ -74,7 +74,7 @@ fn faults(html: &str) -> Vec<(Range<usize>, String, MarkupFault)> {
             open.push(tag);
         }
     }
-    // Where not all was looked at, what is open may be closed yet.
+    // If the limit is reached, open elements may be closed later.
     if all.next().is_some() {
         open.clear();
     }
@@ -83,7 +83,7 @@ fn faults(html: &str) -> Vec<(Range<usize>, String, MarkupFault)> {
     faults
 }
 
-/// Looks into a text of a lab or a quiz.
+/// Checks a text of a lab or a quiz.
 pub(crate) fn check_markup(text: &Text, findings: &mut Vec<Finding>) {
     for (at, name, fault) in faults(text.as_str()).into_iter().take(MAX_IN_TEXT) {
         let short_text = shorten(text.value.get(at.clone()).unwrap_or(""));
@@ -114,17 +114,17 @@ mod tests {
 
     #[test]
     fn markup_that_browsers_correct_is_reported() {
-        let of =
+        let faults_in =
             |html: &str| faults(html).into_iter().map(|(_, name, fault)| (name, fault)).collect::<Vec<_>>();
         let named = |name: &str, fault| vec![(name.to_string(), fault)];
-        assert_eq!(of("<p>one <b>two</b><p>three <br> <img src='a'> 1 < 2 <code>x</code>"), []);
-        assert_eq!(of("<ul><li>a<li>b</ul> <!-- <b> --> <svg><path d=''/><g></g></svg>"), []);
-        assert_eq!(of("<p>a <code>x</p>"), named("code", MarkupFault::Crossed("p".into())));
-        assert_eq!(of("a <code>x"), named("code", MarkupFault::Unclosed));
-        assert_eq!(of("a</b>"), named("b", MarkupFault::Unopened));
-        assert_eq!(of("<strnog>a</strnog>").len(), 2);
-        assert_eq!(of("if a<bc and d>e"), named("bc", MarkupFault::Unknown));
-        // What another rule tells.
-        assert_eq!(of("set in <option>, <geom size='1'/>"), []);
+        assert_eq!(faults_in("<p>one <b>two</b><p>three <br> <img src='a'> 1 < 2 <code>x</code>"), []);
+        assert_eq!(faults_in("<ul><li>a<li>b</ul> <!-- <b> --> <svg><path d=''/><g></g></svg>"), []);
+        assert_eq!(faults_in("<p>a <code>x</p>"), named("code", MarkupFault::Crossed("p".into())));
+        assert_eq!(faults_in("a <code>x"), named("code", MarkupFault::Unclosed));
+        assert_eq!(faults_in("a</b>"), named("b", MarkupFault::Unopened));
+        assert_eq!(faults_in("<strnog>a</strnog>").len(), 2);
+        assert_eq!(faults_in("if a<bc and d>e"), named("bc", MarkupFault::Unknown));
+        // Another rule reports these.
+        assert_eq!(faults_in("set in <option>, <geom size='1'/>"), []);
     }
 }

@@ -1,8 +1,8 @@
-//! Controls that change nothing anybody sees: over all of their range, or over a part of it.
+//! Controls without a visible effect, over all of their range or over a part of it.
 //!
-//! What two runs show is compared to the last bit, so what matters only a little matters. Two controls may act together
-//! only: each is tried with the others moved, too, early and in mid-run. If the work budget ends before all is tried,
-//! nothing is reported.
+//! The displays of two runs are compared bit for bit, so a small effect counts. Two controls may have an effect only together: each
+//! is tested with the others moved, too, early and in mid-run. If the work budget ends before all tests are done, nothing is
+//! reported.
 
 use super::{IDLE_RANGE, needs_reset};
 use crate::bind::ControlProgram;
@@ -30,19 +30,19 @@ pub const IDLE_CONTROL: &Rule = &Rule {
     ),
 };
 
-/// Steps of the runs that look for a part of a range that may be idle.
+/// The number of steps of the runs that search for an idle part of a range.
 const SHORT_RUN: usize = 250;
-/// So many places in a row that look the same may be idle.
+/// The number of adjacent values with equal results from which a part of a range counts as idle.
 const MIN_EQUAL: usize = 3;
-/// When a button is pressed, as a share of the run.
+/// The time at which a button is pressed, as a fraction of the run.
 const PRESS_TIME: f64 = 0.02;
-/// Fields of the model that are drawn and do nothing else; not all of them are compared.
+/// Prefixes of fields of the model that only affect rendering; not all of them are compared.
 const APPEARANCE_PREFIXES: [&str; 7] = ["light_", "mat_", "tex_", "cam_", "vis", "skin_", "geom_group"];
 
-/// Presses of one button in a run.
+/// The number of presses of one button in a run.
 const PRESSES: usize = 3;
 
-/// Options that say how something is computed, and not what.
+/// Options that select a numerical method, not the physics.
 const NUMERICS: [&str; 8] =
     ["integrator", "cone", "jacobian", "solver", "iterations", "tolerance", "impratio", "flags"];
 
@@ -60,7 +60,7 @@ pub(crate) fn check_idle_controls(observed: &mut ObservedLab<'_>, findings: &mut
             .filter(|r| r.moved.as_ref().is_some_and(|m| m.0 == index))
             .map(|r| r.hash)
             .collect();
-        // Each was set, and everything computed anew: what the run as it stands shows may differ by that alone.
+        // Each value was set, and everything recomputed: this alone may change the result of the nominal run.
         let all_same = moved.windows(2).all(|pair| matches!(pair, [a, b] if a == b));
         let group = match &control.kind {
             ControlKind::Select { .. } if !all_same || values.len() < 2 => continue,
@@ -84,7 +84,7 @@ pub(crate) fn check_idle_controls(observed: &mut ObservedLab<'_>, findings: &mut
     }
 }
 
-/// Whether this control is meant to change something that is compared, and is not reported by another rule.
+/// Whether this control should change a compared value, and no other rule reports it.
 fn judged(observed: &ObservedLab<'_>, index: usize) -> bool {
     let ready = observed.bench.ready;
     let Some((_, program)) = ready.programs.controls.get(index) else { return false };
@@ -105,7 +105,7 @@ fn judged(observed: &ObservedLab<'_>, index: usize) -> bool {
         f.info().object != Object::Data
             && (name.contains("rgba") || APPEARANCE_PREFIXES.iter().any(|l| name.starts_with(l)))
     });
-    // That ways of computing agree is often the lesson.
+    // Agreement of numerical methods is often the lesson.
     let numerics = !effects.writes.is_empty()
         && effects.writes.iter().all(|a| {
             FieldId::new(a.field.0 as usize)
@@ -120,7 +120,7 @@ fn judged(observed: &ObservedLab<'_>, index: usize) -> bool {
     !drawn && !numerics && !plays && used && !effects.calls_values
 }
 
-/// Places in a row that look the same in short runs: the longest such row.
+/// The longest range of adjacent values that give equal results in short runs.
 fn longest_equal_range(
     bench: &mut ObservationBench<'_>,
     index: usize,
@@ -135,18 +135,18 @@ fn longest_equal_range(
     (best.len() >= MIN_EQUAL.min(values.len())).then_some(best)
 }
 
-/// A slider is moved once. A button is pressed several times, as it may be the second press that acts; an odd number of times, so
-/// that what it switches on is on.
+/// A slider is moved once. A button is pressed several times, because only the second press may have an effect. The number of
+/// presses is odd, so that a toggle ends in the on state.
 fn presses(nominal: &Move, steps: usize) -> Vec<Move> {
     let times = if nominal.value.is_none() { PRESSES } else { 1 };
-    let apart = (steps.saturating_sub(nominal.step) / (2 * PRESSES)).max(1);
+    let interval = (steps.saturating_sub(nominal.step) / (2 * PRESSES)).max(1);
     (0..times)
-        .map(|n| Move { step: nominal.step + n * apart, ..nominal.clone() })
+        .map(|n| Move { step: nominal.step + n * interval, ..nominal.clone() })
         .filter(|m| m.step <= steps)
         .collect()
 }
 
-/// Whether it makes no difference which of these values a control has, whatever else is done.
+/// Whether all of these values of a control give the same result, for any other moves.
 fn idle(bench: &mut ObservationBench<'_>, index: usize, values: &[Option<Value>], steps: usize) -> bool {
     let pick = match values.len() {
         n if n > 3 => vec![0, n / 2, n - 1],
@@ -158,7 +158,7 @@ fn idle(bench: &mut ObservationBench<'_>, index: usize, values: &[Option<Value>]
     for setting in settings(lab, index, press) {
         for at in [0, steps / 2] {
             let late = at > 0;
-            // Late, a slider comes from the first of the values.
+            // Late in the run, a slider moves from the first of the values.
             let mut seen: Option<ObservationHash> = None;
             for value in &picked {
                 let tried_move = Move {
@@ -180,7 +180,7 @@ fn idle(bench: &mut ObservationBench<'_>, index: usize, values: &[Option<Value>]
                 seen = Some(record.hash);
             }
             if picked.iter().any(Option::is_none) {
-                // A button: against the run in which everything is only computed anew.
+                // A button is compared with a run in which everything is only recomputed.
                 let mut moves = setting.clone();
                 moves.extend(presses(&Move::nothing(at.max(press + 1)), steps));
                 let Some(record) = bench.run(&moves, steps) else { return false };
@@ -232,7 +232,7 @@ fn finding(
     Finding::warning(rule, control.label.span(), message).why(why).help(help)
 }
 
-/// The first thing that a control sets.
+/// The first field or variable that a control sets.
 fn first_written(observed: &ObservedLab<'_>, index: usize) -> Option<String> {
     let (_, program) = observed.bench.ready.programs.controls.get(index)?;
     let bound = match program {

@@ -1,6 +1,6 @@
-//! Sliders that set one and the same over a part of their range: their statements cut it off.
+//! Sliders whose statements set the same values over a part of their range, because they clamp the value.
 //!
-//! What a slider sets is compared, before anything is run: to the last bit, in all fields and variables that it writes.
+//! The values that a slider sets are compared bit for bit, in all fields and variables that it writes, without a run.
 
 use crate::bind::{Bound, ControlProgram};
 use crate::check::observations::{ObservedLab, longest_equal};
@@ -24,11 +24,11 @@ pub const IDLE_RANGE: &Rule = &Rule {
     ),
 };
 
-/// Values that are tried.
+/// The number of tested values.
 const TESTED_VALUES: usize = 25;
-/// A part of the range that is this share of it counts.
+/// The minimum length of a reported part, as a fraction of the range.
 const MIN_SHARE: f64 = 0.3;
-/// Most numbers that are compared.
+/// The maximum number of compared numbers.
 const MAX_NUMBERS: usize = 2000;
 
 pub(crate) fn check_flat_ranges(observed: &mut ObservedLab<'_>, findings: &mut Vec<Finding>) {
@@ -45,7 +45,7 @@ pub(crate) fn check_flat_ranges(observed: &mut ObservedLab<'_>, findings: &mut V
         if observed.reported.contains(&index) || !(2.0..1e6).contains(&steps) || action.param.is_some() {
             continue;
         }
-        // Every step of the slider, or so many of them.
+        // Every step of the slider, or this many of them.
         let count = (steps as usize).min(TESTED_VALUES);
         let at = |i: usize| (min.value + (i as f64 * steps / count as f64).round() * step).min(max.value);
         let values: Vec<f64> = (0..=count).map(at).collect();
@@ -57,7 +57,7 @@ pub(crate) fn check_flat_ranges(observed: &mut ObservedLab<'_>, findings: &mut V
         let flat = longest_equal(&sets);
         let [Some(low), Some(high)] = [values.get(flat.start), values.get(flat.end - 1)] else { continue };
         let share = (high - low) / (max.value - min.value);
-        // What goes up in stairs is flat everywhere, and meant so.
+        // A staircase is flat nearly everywhere, which is intended.
         let stairs = sets
             .windows(2)
             .enumerate()
@@ -85,7 +85,7 @@ pub(crate) fn check_flat_ranges(observed: &mut ObservedLab<'_>, findings: &mut V
     }
 }
 
-/// All that a control has written at a value; `None` where that is not known.
+/// All values that a control writes at a position of its slider. `None` if they are not known.
 fn writes(observed: &ObservedLab<'_>, index: usize, bound: &Bound, value: f64) -> Option<Vec<u64>> {
     let effects = bound.program.effects();
     if effects.any_ctx || effects.calls_values {

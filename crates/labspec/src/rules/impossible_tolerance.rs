@@ -17,7 +17,7 @@ pub const IMPOSSIBLE_TOLERANCE: &Rule = &Rule {
     ),
 };
 
-/// The smallest part of an answer that somebody may know it to.
+/// The smallest relative tolerance that an answer may require.
 const MIN_RELATIVE_TOLERANCE: f64 = 1e-9;
 
 pub(super) const CHECK: Check = Check::Question(check_question);

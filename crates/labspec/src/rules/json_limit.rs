@@ -15,13 +15,13 @@ pub const JSON_LIMIT: &Rule = &Rule {
     good: Example::Lab(r#"{"model": "ball"}"#),
 };
 
-/// Brackets within brackets without end.
+/// Reports too deeply nested brackets.
 pub(crate) fn too_deep(span: Range<usize>) -> Finding {
     Finding::new(JSON_LIMIT, span, format!("the JSON has more than {MAX_DEPTH} nested brackets"))
         .help("look for a bracket that is not closed: a lab needs about eight levels")
 }
 
-/// More values than a lab can have.
+/// Reports more values than the limit.
 pub(crate) fn too_many(span: Range<usize>) -> Finding {
     Finding::new(JSON_LIMIT, span, format!("the JSON has more than {MAX_VALUES} values"))
         .help("split it into several labs")

@@ -1,4 +1,5 @@
-//! In the words of a person who does not know what a token is. What is broken, and which change repairs it, is decided in `json/`.
+//! Messages about JSON syntax for readers who do not know what a token is. `json/` decides what is broken, and which change repairs
+//! it.
 
 use crate::json::read::shorten;
 use crate::json::{Mistake, Problem};
@@ -16,7 +17,7 @@ pub const JSON_SYNTAX: &Rule = &Rule {
     good: Example::Lab(r#"{"model": "ball", "stopAt": 2, "dock": true}"#),
 };
 
-/// The messages about a problem: message, reason, help, and what the other place is.
+/// The texts about a problem: message, reason, help, and the description of the related place.
 struct MessageParts {
     message: String,
     why: &'static str,
@@ -24,7 +25,7 @@ struct MessageParts {
     related: String,
 }
 
-/// A message with what to do.
+/// A message with a help text.
 fn message_with_help(message: impl Into<String>, help: impl Into<String>) -> MessageParts {
     MessageParts { message: message.into(), why: "", help: help.into(), related: String::new() }
 }
@@ -39,7 +40,7 @@ impl MessageParts {
     }
 }
 
-/// The messages about a mistake that is of no other rule.
+/// Describes a mistake that no other rule reports.
 pub(crate) fn describe_problem(problem: &Problem) -> Finding {
     let MessageParts { message, why, help, related } = describe(&problem.mistake);
     let mut finding = Finding::new(JSON_SYNTAX, problem.span.clone(), message).help(help);
@@ -52,16 +53,16 @@ pub(crate) fn describe_problem(problem: &Problem) -> Finding {
     }
 }
 
-/// A fence without content.
+/// Reports a fence without content.
 pub(crate) fn empty_fence(span: Range<usize>) -> Finding {
     Finding::new(JSON_SYNTAX, span, "this fence is empty")
         .help("write one JSON object between the two ``` lines: { … }")
 }
 
-/// Why a text ends on its line.
+/// The reason why a string must end on its line.
 const ONE_LINE: &str = "a JSON string must end on the line where it begins";
 
-/// The messages about a mistake: each group of mistakes has its own function.
+/// The texts about a mistake. Each group of mistakes has its own function.
 fn describe(mistake: &Mistake) -> MessageParts {
     let groups = [describe_separator, describe_bracket, describe_literal, describe_string, describe_quotes];
     if let Mistake::Nothing = mistake {
@@ -72,7 +73,7 @@ fn describe(mistake: &Mistake) -> MessageParts {
     parts.unwrap_or_else(|| message_with_help("this is not JSON", "correct it, or delete it"))
 }
 
-/// Commas and colons, and keys without what belongs to them.
+/// Describes commas and colons, and keys without a value.
 fn describe_separator(mistake: &Mistake) -> Option<MessageParts> {
     Some(match mistake {
         Mistake::CommaMissing => message_with_help(
@@ -113,7 +114,7 @@ fn describe_separator(mistake: &Mistake) -> Option<MessageParts> {
     })
 }
 
-/// Brackets.
+/// Describes brackets.
 fn describe_bracket(mistake: &Mistake) -> Option<MessageParts> {
     Some(match mistake {
         Mistake::OpeningMissing => message_with_help("the opening `{` is missing", "write `{` here"),
@@ -159,7 +160,7 @@ fn describe_bracket(mistake: &Mistake) -> Option<MessageParts> {
     })
 }
 
-/// What stands where a value or a key should: comments, words, numbers in another form.
+/// Describes tokens in the place of a value or a key: comments, words, numbers in another notation.
 fn describe_literal(mistake: &Mistake) -> Option<MessageParts> {
     Some(match mistake {
         Mistake::Comment => {
@@ -205,7 +206,7 @@ fn describe_literal(mistake: &Mistake) -> Option<MessageParts> {
     })
 }
 
-/// What stands inside of a text.
+/// Describes the content of strings.
 fn describe_string(mistake: &Mistake) -> Option<MessageParts> {
     Some(match mistake {
         Mistake::StringOpen { last: true } => {
@@ -250,7 +251,7 @@ fn describe_string(mistake: &Mistake) -> Option<MessageParts> {
     })
 }
 
-/// Quotes of other kinds, and characters that nobody sees.
+/// Describes other kinds of quotes, and invisible characters.
 fn describe_quotes(mistake: &Mistake) -> Option<MessageParts> {
     Some(match mistake {
         Mistake::InnerQuotes(count) => message_with_help(

@@ -22,7 +22,7 @@ pub const LABEL_NAMES_ANOTHER: &Rule = &Rule {
     ),
 };
 
-/// What labels name, and what they call it.
+/// The kinds of named objects, and the words for them in labels.
 const KINDS: [(Obj, &str); 6] = [
     (Obj::Body, "body"),
     (Obj::Joint, "joint"),
@@ -32,11 +32,11 @@ const KINDS: [(Obj, &str); 6] = [
     (Obj::Sensor, "sensor"),
 ];
 
-/// Most names and most labels that are looked at.
+/// The maximum numbers of names and labels that are compared.
 const MAX_NAMES: usize = 400;
 
 /// A name of the model.
-struct NamedObject {
+struct LabelledObject {
     kind: Obj,
     noun: &'static str,
     index: usize,
@@ -45,21 +45,21 @@ struct NamedObject {
     body: usize,
 }
 
-/// A label, and what its expression reads.
-struct DisplayedValue<'l> {
+/// A label, and the objects that its expression reads.
+struct LabelledExpression<'l> {
     label: &'l Text,
     bound: &'l Bound,
-    /// The names in it, the longest where one is a part of another.
+    /// The names in the label. If one contains another, only the longer one.
     names: Vec<usize>,
-    /// Its words without the name that it has, if that is one.
+    /// The words of the label without its only name.
     rest: Vec<String>,
-    /// What it reads, if that is known of everything.
+    /// The objects that the expression reads, if all of them are known.
     reads: Vec<(Obj, usize)>,
-    /// The bodies that this belongs to.
+    /// The bodies to which these objects belong.
     bodies: BTreeSet<usize>,
 }
 
-/// Every name of a body, joint, geom, site, actuator or sensor.
+/// All names of bodies, joints, geoms, sites, actuators and sensors.
 pub(super) fn names(model: &Model) -> impl Iterator<Item = &str> {
     KINDS
         .iter()
@@ -72,7 +72,7 @@ pub(crate) fn check_names(lab: &Lab, model: &Model, programs: &Programs, finding
     let all = elements(model);
     let traces = lab.plots.iter().flat_map(|p| &p.traces).map(|t| &t.label);
     let labels = traces.chain(lab.readouts.iter().map(|r| &r.label));
-    let displays: Vec<DisplayedValue<'_>> = labels
+    let displays: Vec<LabelledExpression<'_>> = labels
         .zip(&programs.probes)
         .take(MAX_NAMES)
         .filter_map(|(label, probe)| displayed(label, probe.bound.as_ref()?, model, &all))
@@ -123,17 +123,18 @@ pub(crate) fn check_names(lab: &Lab, model: &Model, programs: &Programs, finding
     }
 }
 
-/// Whether a label is something and then, behind a comma, a joint, and the expression reads another joint: `force, shoulder (N)`.
-fn is_in_name_position(one: &DisplayedValue<'_>, named: &NamedObject) -> bool {
+/// Whether a label names a quantity and then, after a comma, a joint, while the expression reads another joint: `force, shoulder
+/// (N)`.
+fn is_in_name_position(one: &LabelledExpression<'_>, named: &LabelledObject) -> bool {
     let last = one.label.as_str().rsplit_once(", ").map(|(_, last)| words_of(last));
     let joint = named.kind == Obj::Joint && one.reads.iter().all(|(kind, _)| *kind == Obj::Joint);
     joint && last.is_some_and(|words| words == named.words)
 }
 
-/// Sizes of a model, as labels name them.
+/// The sizes of a model that labels name.
 const SIZES: [&str; 9] = ["nq", "nv", "nu", "na", "nbody", "njnt", "ngeom", "nsite", "nkey"];
 
-/// A label that is the name of a size, and an expression that is another one.
+/// Reports a label that names one size while its expression reads another.
 fn another_size(label: &Text, bound: &Bound) -> Option<Finding> {
     let named = label.as_str().trim();
     let read = bound.text.value.trim().strip_prefix("model.")?;
@@ -146,7 +147,8 @@ fn another_size(label: &Text, bound: &Bound) -> Option<Finding> {
     })
 }
 
-/// A label of a control that quotes an element, as `ctrl[0]`, where the statements write this field, and another element of it.
+/// Reports a label of a control that quotes an element, such as `ctrl[0]`, while the statements write another element of the same
+/// field.
 fn quotes_another(label: &Text, bound: &Bound, model: &Model) -> Option<Finding> {
     let text = label.as_str();
     let open = text.find('[')?;
@@ -164,7 +166,7 @@ fn quotes_another(label: &Text, bound: &Bound, model: &Model) -> Option<Finding>
     let written: Vec<_> =
         bound.program.own_writes().into_iter().filter(|w| w.field.0 as usize == field.index()).collect();
     let outside = |i: usize| !(first..end).contains(&i);
-    // What is written one by one: every element that the label names, and none besides.
+    // The elements that are written one by one: exactly those that the label names.
     let all: Option<Vec<usize>> = written.iter().map(|w| (w.count == Some(1)).then_some(w.first)).collect();
     let all = all.filter(|all| !all.is_empty())?;
     let other = all.iter().find(|i| outside(**i)).filter(|_| all.iter().all(|i| outside(*i)))?;
@@ -176,8 +178,8 @@ fn quotes_another(label: &Text, bound: &Bound, model: &Model) -> Option<Finding>
     )
 }
 
-/// A trace that is called by the name of something in the model, and is a number.
-fn a_number(trace: &Trace, bound: Option<&Bound>, all: &[NamedObject]) -> Option<Finding> {
+/// Reports a trace that has the name of an object of the model, but is a constant.
+fn a_number(trace: &Trace, bound: Option<&Bound>, all: &[LabelledObject]) -> Option<Finding> {
     let bound = bound.filter(|b| b.program.effects().constant())?;
     let words = words_of(trace.label.as_str());
     let named = all.iter().find(|n| n.words == words)?;
@@ -196,20 +198,20 @@ fn words_of(label: &str) -> Vec<String> {
     split_words(end.and_then(|at| label.get(..at)).unwrap_or(label))
 }
 
-/// Whether the label is a name and nothing else, of something that has what the expression reads.
-fn is_only_named_object(one: &DisplayedValue<'_>, named: &NamedObject) -> bool {
+/// Whether the label consists only of the name of an object that has the quantity that the expression reads.
+fn is_only_named_object(one: &LabelledExpression<'_>, named: &LabelledObject) -> bool {
     let same_kind = |kind: Obj| kind == named.kind || named.kind == Obj::Body && kind == Obj::Joint;
     one.rest.is_empty() && one.reads.iter().all(|(kind, _)| same_kind(*kind))
 }
 
-/// Whether another label is the same but for its name, which is that of what this one reads. Where that one reads a third
-/// thing, the names may mean something else.
+/// Whether another label differs only in its name, and names what this one reads. If that other label reads a third object, the
+/// names may have another meaning.
 fn beside(
-    one: &DisplayedValue<'_>,
-    named: &NamedObject,
+    one: &LabelledExpression<'_>,
+    named: &LabelledObject,
     body: usize,
-    displayed: &[DisplayedValue<'_>],
-    all: &[NamedObject],
+    displayed: &[LabelledExpression<'_>],
+    all: &[LabelledObject],
 ) -> bool {
     displayed.iter().any(|other| {
         let [name] = other.names.as_slice() else { return false };
@@ -220,13 +222,13 @@ fn beside(
     })
 }
 
-/// A label with what it names and reads; `None` when it is not known of all that is read where it belongs.
+/// A label with the objects that it names and reads. `None` if the owner of a read field is not known.
 fn displayed<'l>(
     label: &'l Text,
     bound: &'l Bound,
     model: &Model,
-    all: &[NamedObject],
-) -> Option<DisplayedValue<'l>> {
+    all: &[LabelledObject],
+) -> Option<LabelledExpression<'l>> {
     let effects = bound.program.effects();
     if effects.reads_everything || effects.any_ctx || effects.calls_values || !effects.ctx_reads.is_empty() {
         return None;
@@ -237,13 +239,13 @@ fn displayed<'l>(
         let owner = element_owner(model, access.field, access.first, access.count?);
         match owner {
             Some((kind, index)) => reads.push((kind, index)),
-            // Time and options belong to nobody.
+            // Time and options have no owner.
             None if access.count == Some(1) => {}
             None => return None,
         }
     }
     let bodies = reads.iter().map(|(kind, index)| body_of(model, *kind, *index)).collect::<Option<_>>()?;
-    // Where several things have one name, the first of the kind that is read is meant.
+    // If several objects have the same name, the first one of the kind that is read is used.
     let mut names: Vec<(usize, usize, usize)> = Vec::new();
     for (i, named) in all.iter().enumerate() {
         let Some(at) = words.windows(named.words.len()).position(|w| w == named.words) else { continue };
@@ -265,7 +267,7 @@ fn displayed<'l>(
     if let [(_, from, to)] = names.as_slice() {
         rest.drain(*from..*to);
     }
-    Some(DisplayedValue {
+    Some(LabelledExpression {
         label,
         bound,
         names: names.into_iter().map(|n| n.0).collect(),
@@ -275,14 +277,15 @@ fn displayed<'l>(
     })
 }
 
-/// The words of a label or a name, in small letters.
+/// The words of a label or a name, in lower case.
 fn split_words(text: &str) -> Vec<String> {
     let parts = text.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty());
     parts.map(str::to_lowercase).collect()
 }
 
-/// Everything that has a name of its own and belongs to a body that is not the world. A letter is no name that a label would have.
-fn elements(model: &Model) -> Vec<NamedObject> {
+/// All named elements that belong to a body other than the world. Names of one letter are excluded, because they do not occur in
+/// labels.
+fn elements(model: &Model) -> Vec<LabelledObject> {
     let mut all = Vec::new();
     for (kind, noun) in KINDS {
         for (index, name) in model
@@ -294,10 +297,10 @@ fn elements(model: &Model) -> Vec<NamedObject> {
             .take(MAX_NAMES)
         {
             let body = body_of(model, kind, index).filter(|b| *b != 0);
-            // A space of names stands before a stroke.
+            // A namespace precedes the slash.
             let short_name = name.rsplit('/').next().unwrap_or(name);
             if let (Some(body), false) = (body, split_words(short_name).is_empty()) {
-                all.push(NamedObject {
+                all.push(LabelledObject {
                     kind,
                     noun,
                     index,
@@ -311,7 +314,7 @@ fn elements(model: &Model) -> Vec<NamedObject> {
     all
 }
 
-/// The body that something belongs to.
+/// The body to which an object belongs.
 fn body_of(model: &Model, kind: Obj, index: usize) -> Option<usize> {
     let at = |list: &[i32], i: usize| list.get(i).and_then(|b| usize::try_from(*b).ok());
     match kind {

@@ -27,7 +27,7 @@ pub const LABEL_UNIT: &Rule = &Rule {
     ),
 };
 
-/// A readout whose label has a unit, and that is a text in every run.
+/// Reports a readout whose label has a unit, but whose value is a string in every run.
 pub(crate) fn check_text_readout(observed: &ObservedLab<'_>, readout: &Readout, c: usize) -> Option<Finding> {
     let mut cells = column(observed.records, c);
     let (unit, _) = of_label(readout.label.as_str())?;
@@ -46,7 +46,7 @@ pub(crate) fn check_text_readout(observed: &ObservedLab<'_>, readout: &Readout, 
     })
 }
 
-/// The label of a plot with a unit that is not the one of a trace, though both measure the same: degrees beside radians.
+/// Reports a label of a plot whose unit differs from that of a trace of the same quantity: degrees beside radians.
 pub(crate) fn contradicting_units(plot: &Plot, model: &Model) -> Option<Finding> {
     let axis = plot.ylabel.as_ref()?;
     let (text, of_axis) = of_label(axis.as_str())?;
@@ -70,44 +70,44 @@ pub(crate) fn contradicting_units(plot: &Plot, model: &Model) -> Option<Finding>
     })
 }
 
-/// The first of the labels that has a unit, if it is another one than that of the numbers.
+/// Reports the first label whose unit differs from that of the numbers.
 pub(crate) fn wrong_label(
     labels: &[&Text],
     model: &Model,
     bound: &Bound,
     found: &Dimension,
 ) -> Option<Finding> {
-    let (label, (text, wanted)) = labels.iter().find_map(|l| Some((l, of_label(l.as_str())?)))?;
-    // Something of the model may have the name of a unit.
+    let (label, (text, expected)) = labels.iter().find_map(|l| Some((l, of_label(l.as_str())?)))?;
+    // An object of the model may have the name of a unit.
     if names(model).any(|name| name == text) {
         return None;
     }
-    // The smallest of something is no time.
-    if text == "min" && !found.agrees(&wanted) {
+    // `min` may mean a minimum instead of minutes.
+    if text == "min" && !found.agrees(&expected) {
         return None;
     }
-    // A turn is not a radian.
-    let turns = text.contains("Hz") && found.is_exact() && found.has_angle() && found.agrees(&wanted);
-    if !contradicts(found, &wanted) && !turns {
+    // A revolution is not a radian.
+    let turns = text.contains("Hz") && found.is_exact() && found.has_angle() && found.agrees(&expected);
+    if !contradicts(found, &expected) && !turns {
         return None;
     }
     let gives = written(found);
     let message = format!("the label says {text}, but the expression gives {gives}");
     let found = Finding::new(LABEL_UNIT, label.span(), message)
-        .why(why(found, &wanted))
+        .why(why(found, &expected))
         .related(bound.text.span(), format!("this is in {gives}"));
-    Some(found.help(match factor_words(&wanted) {
+    Some(found.help(match factor_words(&expected) {
         Some(words) => format!("convert the number ({words}), or write its unit into the label"),
         None => "write the unit of the number into the label, or display what the label says".to_string(),
     }))
 }
 
-/// What a student reads.
-fn why(found: &Dimension, wanted: &Dimension) -> String {
-    if !found.agrees(wanted) {
+/// The effect of the wrong unit on a student.
+fn why(found: &Dimension, expected: &Dimension) -> String {
+    if !found.agrees(expected) {
         return "the two are different quantities".to_string();
     }
-    let ratio = found.factor.abs() / wanted.factor.abs();
+    let ratio = found.factor.abs() / expected.factor.abs();
     let near = |x: f64| (x - x.round()).abs() < 1e-6 * x;
     match (ratio, 1.0 / ratio) {
         (r, _) if r >= 1.0 && near(r) => {
@@ -120,9 +120,9 @@ fn why(found: &Dimension, wanted: &Dimension) -> String {
     }
 }
 
-/// How SI becomes a unit.
-fn factor_words(wanted: &Dimension) -> Option<String> {
-    let factor = wanted.factor.abs();
+/// Describes the conversion from SI to a unit.
+fn factor_words(expected: &Dimension) -> Option<String> {
+    let factor = expected.factor.abs();
     if (factor - 1f64.to_degrees()).abs() < 1e-6 {
         return Some("`lib.deg(…)` converts radians to degrees".to_string());
     }
@@ -131,7 +131,7 @@ fn factor_words(wanted: &Dimension) -> Option<String> {
     plain.then(|| format!("`{} * (…)`", factor.round()))
 }
 
-/// A control whose unit is not that of what it sets.
+/// Reports a control whose unit differs from that of the value that it sets.
 pub(crate) fn wrong_control(
     control: &Control,
     names: &dyn Schema,
@@ -139,26 +139,29 @@ pub(crate) fn wrong_control(
     measured: &TextDimensions,
 ) -> Option<Finding> {
     let Measure::Known(_) = given_by(control) else { return None };
-    let (stored, found, wanted) = measured.stores.iter().find_map(|stored| {
-        let (Measure::Known(found), Measure::Known(wanted)) =
+    let (stored, found, expected) = measured.stores.iter().find_map(|stored| {
+        let (Measure::Known(found), Measure::Known(expected)) =
             (stored.measure, names.measure(stored.access.field, stored.access.first, stored.access.count))
         else {
             return None;
         };
-        contradicts(&found, &wanted).then_some((stored, found, wanted))
+        contradicts(&found, &expected).then_some((stored, found, expected))
     })?;
     let field = FieldId::new(stored.access.field.0 as usize)?.info().name;
     let label = match &control.kind {
         ControlKind::Slider { unit: Some(text), .. } if unit(text.as_str()).is_some() => text,
         _ => &control.label,
     };
-    let message =
-        format!("the control stores a value in {}, but {field} is in {}", written(&found), written(&wanted));
+    let message = format!(
+        "the control stores a value in {}, but {field} is in {}",
+        written(&found),
+        written(&expected)
+    );
     let at = bound.text.span_of(stored.span.into());
     let finding = Finding::new(LABEL_UNIT, label.span(), message).related(at, "it stores this");
     Some(
         finding
-            .why(why(&found, &wanted))
+            .why(why(&found, &expected))
             .help("convert `value` where it is stored, or write the unit of the field"),
     )
 }

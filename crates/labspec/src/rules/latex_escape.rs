@@ -16,7 +16,7 @@ pub const LATEX_ESCAPE: &Rule = &Rule {
 
 pub(super) const CHECK: Check = Check::Lesson(check_lesson);
 
-/// What an escape makes of the commands that begin with its letter.
+/// The LaTeX commands whose first letter forms a JSON escape with the backslash.
 const COMMANDS: [(char, char, &[&str]); 5] = [
     ('\t', 't', &["tau", "theta", "times", "tfrac", "text", "tan", "tilde", "to ", "top"]),
     ('\u{c}', 'f', &["frac", "forall", "flat"]),
@@ -33,7 +33,7 @@ fn check_text(text: &Text, findings: &mut Vec<Finding>) {
             continue;
         };
         let rest = text.value.get(at + 1..).unwrap_or("");
-        // Line breaks are ordinary; they count only inside of a formula.
+        // Line breaks are common; they count only inside a formula.
         if matches!(c, '\n' | '\r') && !in_formula {
             continue;
         }

@@ -14,7 +14,7 @@ pub const LISTING_INDENTATION: &Rule = &Rule {
     good: Example::Lesson("```python\nfor step in range(10):\n    print(step)\n```\n"),
 };
 
-/// Whether a statement behind the line that opens its block is indented; `opener` is that line.
+/// Reports a statement that is not indented although the line before opens a block. `opener`: that line.
 pub(crate) fn check_line(
     body: &Text,
     line: &CodeLine<'_>,

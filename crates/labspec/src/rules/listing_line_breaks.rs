@@ -13,7 +13,7 @@ pub const LISTING_LINE_BREAKS: &Rule = &Rule {
     good: Example::Lesson("```python\ndef fall(h):\n    z = 1.0\n    v = 0.0\n    return z - v * h\n```\n"),
 };
 
-/// Whether a line has more statements than a line can hold.
+/// Reports a line with more statements than a line can have.
 pub(crate) fn check_line(body: &Text, line: &CodeLine<'_>) -> Option<Finding> {
     let from = line.start + second_assignment(line.bare)?;
     let span = body.span_of(from..line.content.end);
@@ -23,7 +23,7 @@ pub(crate) fn check_line(body: &Text, line: &CodeLine<'_>) -> Option<Finding> {
     )
 }
 
-/// Where the second assignment of a `def` line begins, outside of brackets: more than one cannot follow it.
+/// The start of the second assignment of a `def` line, outside brackets. At most one can follow it.
 fn second_assignment(bare: &str) -> Option<usize> {
     if !bare.trim_start().starts_with("def ") || bare.contains(';') {
         return None;
@@ -36,7 +36,7 @@ fn second_assignment(bare: &str) -> Option<usize> {
             '=' if depth == 0 && bare.get(at.saturating_sub(1)..at + 2) == Some(" = ") => {
                 count += 1;
                 if count == 2 {
-                    // Back over the name that is assigned.
+                    // Skips the assigned name backwards.
                     let name = bare.get(..at)?.trim_end();
                     return Some(name.rfind(' ').map_or(0, |space| space + 1));
                 }

@@ -14,9 +14,9 @@ pub const LISTING_UNDERSCORES: &Rule = &Rule {
     good: Example::Lesson("```python\nif __name__ == \"__main__\":\n    main()\n```\n"),
 };
 
-/// Whether a line compares `name` with `main`.
+/// Reports a line that compares `name` with `main`.
 pub(crate) fn check_line(body: &Text, line: &CodeLine<'_>) -> Option<Finding> {
-    // The strings are blanked out, so the words of the listing itself are compared.
+    // The scan blanks strings, so the original text is compared.
     let words = line.text.trim().replace(is_typographic, "\"");
     let lost = words.starts_with("if name == \"main\"") || words.starts_with("if name == 'main'");
     lost.then(|| {

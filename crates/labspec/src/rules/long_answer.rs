@@ -20,7 +20,7 @@ pub const LONG_ANSWER: &Rule = &Rule {
 
 pub(super) const CHECK: Check = Check::Question(check_question);
 
-/// So many times as long as the next, and by so many characters.
+/// The minimum ratio to the length of the next option, and the minimum number of extra characters.
 const LENGTH_RATIO: usize = 2;
 const EXTRA_CHARACTERS: usize = 30;
 

@@ -24,7 +24,7 @@ pub const LOST_AT_RESET: &Rule = &Rule {
     ),
 };
 
-/// Controls that set what a reset puts back.
+/// Checks controls that set fields that a reset restores.
 pub(crate) fn check_resets(lab: &Lab, model: &Model, programs: &Programs, findings: &mut Vec<Finding>) {
     for (index, control) in lab.controls.iter().enumerate() {
         let Some((label, ControlProgram::Change(_, action))) = programs.controls.get(index) else { continue };
@@ -47,8 +47,8 @@ pub(crate) fn check_resets(lab: &Lab, model: &Model, programs: &Programs, findin
     }
 }
 
-/// Moves the control, then resets: what of the field is lost, in words. `None` when a setup, a controller or another
-/// control sets it again.
+/// Moves the control, then resets, and describes the values of the field that are lost. `None` if a setup, a controller or another
+/// control sets them again.
 fn describe_lost(
     control: &Control,
     index: usize,
@@ -59,28 +59,28 @@ fn describe_lost(
 ) -> Option<String> {
     let mut programs = programs.clone();
     if let Some((_, ControlProgram::Change(_, action))) = programs.controls.get_mut(index) {
-        // What it sets is looked at before the reset.
+        // The values that it sets are read before the reset.
         action.reset = false;
     }
     let key = FieldKey(field.index() as u32);
-    let now = |session: &Session<'_>| -> Vec<f64> {
+    let current = |session: &Session<'_>| -> Vec<f64> {
         (0..session.world.len(key)).map_while(|i| session.world.get(key, i)).collect()
     };
     let differs = |a: &[f64], b: &[f64]| a.iter().zip(b).position(|(x, y)| x.to_bits() != y.to_bits());
     let with = |chosen: &Value| {
         let mut session = Session::start(&programs, model, Start::of_lab(lab));
         session.set_control(index, chosen.clone());
-        let set = now(&session);
+        let set = current(&session);
         session.reset();
-        let reset = now(&session);
+        let reset = current(&session);
         let at = differs(&set, &reset)?;
         // A controller may set an input again before the first step.
         if field.info().kind == Kind::Input && programs.controller.is_some() {
             session.step();
-            let after_reset = now(&session);
+            let after_reset = current(&session);
             session.set_control(index, chosen.clone());
             session.step();
-            differs(&now(&session), &after_reset)?;
+            differs(&current(&session), &after_reset)?;
         }
         let name = format!("data.{}[{at}]", field.info().name);
         let [set, reset] = [&set, &reset].map(|list| digits(list.get(at).copied().unwrap_or(f64::NAN), 6));

@@ -12,15 +12,15 @@ pub const MISSING_KEY: &Rule = &Rule {
     good: Example::Lab(r#"{"model": "ball", "readouts": [{"label": "time (s)", "expr": "data.time"}]}"#),
 };
 
-/// A key that an object needs; `advised` where it can do without.
+/// Reports a missing key. `advised`: the key is recommended, not required.
 pub(crate) fn describe_missing(
     span: Range<usize>,
-    of: &str,
+    object: &str,
     key: &str,
     why: &'static str,
     advised: bool,
 ) -> Finding {
-    Finding::new(MISSING_KEY, span, format!("{of} needs `{key}`"))
+    Finding::new(MISSING_KEY, span, format!("{object} needs `{key}`"))
         .severity(if advised { Severity::Warning } else { Severity::Error })
         .why(why)
         .help(format!("add \"{key}\": …"))

@@ -22,28 +22,28 @@ pub const MIXED_AWAY: &Rule = &Rule {
     ),
 };
 
-/// Steps in which contacts are observed for.
+/// The number of steps in which contacts are observed.
 const STEPS: usize = 300;
-/// Every so many steps.
+/// The number of steps between observations.
 const STEP_INTERVAL: usize = 5;
 
-/// What is mixed: its name, how the engine mixes it, and its value of a geom.
+/// A mixed parameter: its name, how the engine mixes it, and its value for a geom.
 struct Mixed {
     field: &'static str,
     how: &'static str,
-    of: fn(&Model, usize) -> Option<f64>,
+    value_of_geom: fn(&Model, usize) -> Option<f64>,
 }
 
 const MIXED: [Mixed; 2] = [
     Mixed {
         field: "geom_friction",
         how: "the contact uses the larger of the two",
-        of: |m, g| m.geom_friction.get(3 * g).copied(),
+        value_of_geom: |m, g| m.geom_friction.get(3 * g).copied(),
     },
     Mixed {
         field: "geom_solref",
         how: "the contact uses their mean, weighted by `solmix`",
-        of: |m, g| m.geom_solref.get(2 * g).copied(),
+        value_of_geom: |m, g| m.geom_solref.get(2 * g).copied(),
     },
 ];
 
@@ -86,7 +86,8 @@ pub(crate) fn check_contact_mixing(observed: &ObservedLab<'_>, findings: &mut Ve
     }
 }
 
-/// A contact between a geom that the control has changed and one that it has not, which has another value than was written.
+/// Finds a contact between a geom that the control has changed and one that it has not changed, with a value that differs from the
+/// written one.
 fn differs(
     observed: &ObservedLab<'_>,
     index: usize,
@@ -98,7 +99,7 @@ fn differs(
     let start = Start { key, plan: Some(Plan::full()), budget };
     let mut session = Session::start(&ready.programs, &ready.model, start);
     let all = |session: &Session<'_>| -> Vec<Option<f64>> {
-        (0..ready.model.ngeom).map(|g| (what.of)(&session.world.model, g)).collect()
+        (0..ready.model.ngeom).map(|g| (what.value_of_geom)(&session.world.model, g)).collect()
     };
     let before = all(&session);
     session.set_control(index, value);

@@ -18,7 +18,7 @@ pub const MIXED_DIMENSIONS: &Rule = &Rule {
     ),
 };
 
-/// Sums and comparisons of what cannot be added or compared.
+/// Reports sums and comparisons of incompatible quantities.
 pub(crate) fn clashes(bound: &Bound, measured: &TextDimensions, severity: Severity) -> Vec<Finding> {
     let one = |clash: &labspec_expr::DimensionClash| {
         let message = format!("{} and {} are added or compared", written(&clash.left), written(&clash.right));

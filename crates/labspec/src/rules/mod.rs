@@ -1,9 +1,9 @@
-//! Every rule, whatever part of labspec it comes from. Those of lessons, runs and claims are declared here, each on a page of its
-//! own; those of the language and of models in their crates.
+//! All lint rules. Those about lessons, runs and claims are declared here, each in its own file; those about the language and about
+//! models are declared in their crates.
 //!
-//! A page has the rule and its check: as a `CHECK`, which [`crate::lint`] calls, or as a function that a driver calls (`lint/`,
-//! `check/`). Where one pass decides several rules, the page says which function that is. A new rule is a file here; the build
-//! script lists them.
+//! A file contains the rule and its check: as a `CHECK`, which [`crate::lint`] calls, or as a function that a driver calls
+//! (`lint/`, `check/`). If one pass decides several rules, the file names its function. A new rule is a file of this folder; the
+//! build script lists the files.
 
 mod claims;
 pub mod example;
@@ -17,9 +17,9 @@ use crate::finding::Finding;
 use crate::spec::{Control, Lab, Lesson, Question, Quiz};
 use labspec_core::Model;
 
-/// What a rule looks at. The runner walks the lesson ([`crate::lint`]).
+/// What a rule checks. The runner walks the lesson ([`crate::lint`]).
 pub(crate) enum Check {
-    /// Every lab, those of questions too.
+    /// Every lab, including those of questions.
     Lab(fn(&Lab, &mut Vec<Finding>)),
     /// Every control of every lab.
     Control(fn(&Control, &mut Vec<Finding>)),
@@ -29,14 +29,14 @@ pub(crate) enum Check {
     Question(fn(&Question, &mut Vec<Finding>)),
     /// The lesson as a whole.
     Lesson(fn(&Lesson, &mut Vec<Finding>)),
-    /// Every lab with its model, once that is loaded.
+    /// Every lab with its loaded model.
     Model(fn(&Lab, &Model, &mut Vec<Finding>)),
 }
 
-/// Most findings in one text of a lab or a quiz.
+/// The maximum number of findings in one text of a lab or a quiz.
 pub(crate) const MAX_IN_TEXT: usize = 100;
 
-/// What a lab says of its model and the model does not have.
+/// Checks what a lab states about its model.
 pub(crate) fn check_model(lab: &Lab, model: &Model, findings: &mut Vec<Finding>) {
     for check in CHECKS {
         if let Check::Model(check) = check {
@@ -45,10 +45,10 @@ pub(crate) fn check_model(lab: &Lab, model: &Model, findings: &mut Vec<Finding>)
     }
 }
 
-// Every file of this folder, by the build script.
+// The build script lists the files of this folder.
 include!(concat!(env!("OUT_DIR"), "/rules.rs"));
 
-/// All rules: of lessons with their runs and claims, of the language, of models.
+/// All rules: about lessons with their runs and claims, about the language, about models.
 pub fn all() -> impl Iterator<Item = &'static Rule> {
     let language = labspec_expr::rules::ALL.iter().copied();
     let models = labspec_core::xml::rules::ALL.iter().copied();
@@ -56,7 +56,7 @@ pub fn all() -> impl Iterator<Item = &'static Rule> {
     LESSONS.iter().copied().chain(language).chain(both).chain(models)
 }
 
-/// What only several lessons together can get wrong.
+/// Checks several lessons together.
 pub(crate) fn across(lessons: &[&Lesson]) -> Vec<Finding> {
     let mut findings = duplicate_id::across(lessons);
     findings.extend(uneven_answers::across(lessons));
@@ -64,7 +64,7 @@ pub(crate) fn across(lessons: &[&Lesson]) -> Vec<Finding> {
     findings
 }
 
-/// The rule with this code.
+/// The rule with this code, if it exists.
 pub fn find(code: &str) -> Option<&'static Rule> {
     all().find(|rule| rule.code == code)
 }
@@ -88,7 +88,7 @@ mod tests {
         }
     }
 
-    /// A page has its check, or its first comment names the function that decides the rule.
+    /// A file has a check, or its first comment names the function that decides the rule.
     #[test]
     fn pages_have_their_check_or_name_it() {
         let source = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src");

@@ -15,7 +15,7 @@ pub const MODEL_NAME: &Rule = &Rule {
     good: Example::Lab(r#"{"model": "ball"}"#),
 };
 
-/// Whether a model is named without folder and extension.
+/// Reports a model name with a folder or an extension.
 pub(crate) fn check_model_name(name: &Text, models: &ModelFolder) -> Option<Finding> {
     let text = name.as_str();
     let path = text.contains(['/', '\\', '\0']) || text.contains("..") || text.ends_with(".xml");
@@ -31,7 +31,7 @@ pub(crate) fn check_model_name(name: &Text, models: &ModelFolder) -> Option<Find
     } else {
         let named = finding
             .help(format!("write the name of the file without folder and extension: {}", shorten(stem)));
-        // What the folder does not have is no repair.
+        // A model that does not exist in the folder is not a repair.
         let exists = models.names().is_none_or(|names| names.iter().any(|n| n == stem));
         if exists { named.fix(name.span(), encode(stem)) } else { named }
     })

@@ -20,27 +20,27 @@ pub const NEAR_ITS_LIMIT: &Rule = &Rule {
     ),
 };
 
-/// Work for a run at twice the timestep.
+/// The work budget of a run at twice the timestep.
 const DOUBLED_TIMESTEP_WORK: Budget = Budget { left: 300_000_000 };
 
-/// A lab that breaks at twice its timestep, and did not in so many runs of this length, s.
+/// Reports a lab that breaks at twice its timestep, but did not break in this many runs of this length, s.
 pub(crate) fn check_margin(
     ready: &PreparedLab<'_>,
     case: &StressCase<'_>,
     untouched: &Interaction,
-    wanted: f64,
+    length: f64,
     runs: usize,
 ) -> Option<Finding> {
     let writes = |effects: &labspec_expr::Effects| {
         effects.writes_everything
             || effects.writes.iter().any(|w| w.field.0 as usize == option::timestep.index())
     };
-    // Where a control chooses it, its ends were run.
+    // If a control sets the timestep, its extreme values were run.
     if ready.programs.bound().any(|b| writes(b.program.effects())) {
         return None;
     }
     let twice = |session: &mut Session<'_>| *session.world.model.edit().opt.timestep *= 2.0;
-    let outcome = case.run(untouched, Some(&twice), wanted, DOUBLED_TIMESTEP_WORK.left);
+    let outcome = case.run(untouched, Some(&twice), length, DOUBLED_TIMESTEP_WORK.left);
     let breaks = |f: &&Fault| matches!(f.kind, FaultKind::Diverges | FaultKind::Grows | FaultKind::Silent);
     let fault = outcome.faults.iter().find(breaks)?;
     let h = ready.model.opt.timestep;

@@ -19,7 +19,7 @@ pub const NEEDS_RESET: &Rule = &Rule {
     ),
 };
 
-/// A control that changes nothing while the lab runs, of which only the setup reads what it stores; `why` says what was tried.
+/// Reports a control without effect on a running lab, because only the setup reads the stored value. `why`: the tested cases.
 pub(super) fn check_setup(
     observed: &ObservedLab<'_>,
     control: &Control,

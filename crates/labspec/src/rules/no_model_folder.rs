@@ -16,7 +16,7 @@ pub const NO_MODEL_FOLDER: &Rule = &Rule {
     ]),
 };
 
-/// Whether there is a folder in which the model could be.
+/// Reports a model name if there is no model folder.
 pub(crate) fn check_folder(name: &Text, folder: &ModelFolder) -> Option<Finding> {
     folder.given().is_none().then(|| {
         Finding::error(

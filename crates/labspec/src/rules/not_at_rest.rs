@@ -20,7 +20,7 @@ pub const NOT_AT_REST: &Rule = &Rule {
     ),
 };
 
-/// How long it is observed at, s, and what it may move in that time (m or rad): contacts settle by less than that.
+/// The observed time, s, and the motion that is tolerated in that time, m or rad: contacts settle by less.
 const LENGTH: f64 = 0.2;
 const SETTLES: f64 = 2e-3;
 const WORDS: [&str; 3] = ["starts at rest", "begins at rest", "in equilibrium"];

@@ -12,7 +12,7 @@ pub const NOT_UTF8: &Rule = &Rule {
     good: Example::Files(&[("lesson.md", b"A fall of 5 \xc2\xb5m.\n")]),
 };
 
-/// The finding about a text that is not UTF-8. The path is filled in by whoever collects it.
+/// Reports a text that is not UTF-8. The caller sets the path.
 pub fn not_utf8(bad: BadText) -> Finding {
     let (span, message) = match bad {
         BadText::Utf16 => (0..0, "this file is UTF-16".to_string()),

@@ -1,4 +1,4 @@
-//! Numbers that are not claimed: most of them, in a lesson that has not been gone through, or a few in one that claims the others.
+//! Numbers without a claim: most of them in a lesson without a review, or a few in a lesson that claims the others.
 
 use crate::spec::Lesson;
 use crate::verify::{Stated, counted};
@@ -19,24 +19,24 @@ pub const NUMBERS_UNCLAIMED: &Rule = &Rule {
     ),
 };
 
-/// With fewer claims nobody can say that the author means to claim everything.
+/// With fewer claims, the lesson does not show the intention to claim every number.
 const MIN_CLAIMS: usize = 10;
-/// Of so many numbers one may be left out.
+/// One of this many numbers may be without a claim.
 const SHARE: usize = 10;
-/// Fewer are not reported: one or two are what the text begins with.
+/// Fewer numbers are not reported: one or two are the data of the task.
 const FEWEST: usize = 3;
-/// Bytes of a lesson in which they are looked for.
+/// The maximum length of a lesson that is searched, bytes.
 const MAX_LESSON: usize = 2 << 20;
 
-/// Tells each number on its own where nearly all are claimed, and else the first one of the text, with how many there are.
-pub(crate) fn check_left_out(lesson: &Lesson, findings: &mut Vec<Finding>) {
-    // Where nothing can be claimed nothing is left out; and who writes megabytes is not looked at word by word.
+/// Reports each number separately if nearly all are claimed. Otherwise reports the first one of the text, with the count.
+pub(crate) fn check_unclaimed_numbers(lesson: &Lesson, findings: &mut Vec<Finding>) {
+    // If nothing can be claimed, nothing is missing. Very long lessons are not searched.
     let nothing = lesson.labs.is_empty() && lesson.verifies().next().is_none();
     if nothing || lesson.file.text().len() > MAX_LESSON {
         return;
     }
     let counted = counted(lesson);
-    // The answer of a question is another matter: it has its `value`.
+    // The answer of a question has its `value` instead.
     let numbers = |list: Vec<Stated>| list.into_iter().filter(|s| !s.answer).collect::<Vec<_>>();
     let [claimed, left] = [counted.claimed, counted.left].map(numbers);
     let all = claimed.len() + left.len();
@@ -54,7 +54,7 @@ pub(crate) fn check_left_out(lesson: &Lesson, findings: &mut Vec<Finding>) {
         }
         return;
     }
-    // What a question offers is wrong but for one option, and no claim can be about that.
+    // All options of a question but one are wrong, so no claim can be about them.
     let in_text = |list: Vec<Stated>| list.into_iter().filter(|s| is_text(lesson, s)).collect::<Vec<_>>();
     let [claimed, left] = [claimed, left].map(in_text);
     if let Some(first) = left.first().filter(|_| left.len() >= FEWEST && !lesson.labs.is_empty()) {
@@ -69,7 +69,7 @@ pub(crate) fn check_left_out(lesson: &Lesson, findings: &mut Vec<Finding>) {
     }
 }
 
-/// Whether a number stands in no lab and in no quiz.
+/// Whether a number is outside all labs and quizzes.
 fn is_text(lesson: &Lesson, s: &Stated) -> bool {
     let blocks = lesson.labs.iter().map(|lab| &lab.span).chain(lesson.quizzes.iter().map(|quiz| &quiz.span));
     !blocks.into_iter().any(|block| block.start <= s.span.start && s.span.end <= block.end)

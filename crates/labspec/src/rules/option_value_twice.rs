@@ -33,7 +33,7 @@ fn same(a: &Scalar, b: &Scalar) -> bool {
 fn check_control(control: &Control, findings: &mut Vec<Finding>) {
     let ControlKind::Select { options, .. } = &control.kind else { return };
     for (i, option) in options.iter().enumerate().take(MAX_OPTIONS) {
-        // Two options of one text are one, and another rule's.
+        // Another rule reports two options with the same text.
         let twin = options.iter().take(i).find(|o| same(&o.value, &option.value));
         if let Some(first) = twin {
             let [a, b] = [first, option].map(|o| named(o.text.as_str()));
@@ -50,5 +50,5 @@ fn check_control(control: &Control, findings: &mut Vec<Finding>) {
     }
 }
 
-/// Options that are looked at.
+/// The maximum number of options that are compared.
 const MAX_OPTIONS: usize = 200;

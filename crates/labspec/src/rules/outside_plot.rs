@@ -19,17 +19,17 @@ pub const OUTSIDE_PLOT: &Rule = &Rule {
     ),
 };
 
-/// A plot whose curve is inside for less than this share of the time shows too little of it.
+/// A curve that is inside its plot for less than this fraction of the time is reported.
 const INSIDE: f64 = 0.5;
 
-/// A curve that lies outside of its plot for most of the time, in every run.
+/// Reports a curve that is outside its plot for most of the time, in every run.
 pub(crate) fn check_trace_range(
     observed: &ObservedLab<'_>,
     plot: &Plot,
     c: usize,
     trace: &Trace,
 ) -> Option<Finding> {
-    // One end alone may be there to cut off what is beyond it.
+    // A limit at only one end may be intended to crop the curve.
     let (low, high) = (plot.ymin.as_ref()?.value, plot.ymax.as_ref()?.value);
     if low >= high {
         return None;

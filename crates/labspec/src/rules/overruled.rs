@@ -1,6 +1,8 @@
-//! Controls that something else overrules: the lab begins with another value than they show, or the controller writes its own.
+//! Controls that another program overwrites: the lab begins with another value than they show, or the controller writes a different
+//! value.
 //!
-//! Only what a control sets directly is observed at, elements of the model and inputs, so that nothing else can be what it does.
+//! Only values that a control sets directly are observed, elements of the model and inputs, so that the control has no other
+//! effect.
 
 use crate::bind::{Bound, ControlProgram};
 use crate::check::observations::{Move, ObservedLab, Setting, settings, values};
@@ -26,21 +28,21 @@ pub const OVERRULED: &Rule = &Rule {
     ),
 };
 
-/// Steps after which a control is moved, besides the start.
+/// The number of steps after which a control is moved, besides the start.
 const LATE_STEPS: usize = 40;
 /// The latest step at which it is moved.
 const MOST_STEPS: usize = 20_000;
-/// Most elements that are observed at.
+/// The maximum number of observed elements.
 const MAX_ELEMENTS: usize = 64;
 
 /// An element that a control sets.
 #[derive(Clone, Copy)]
-struct Element {
+struct WrittenElement {
     field: FieldId,
     index: usize,
 }
 
-impl Element {
+impl WrittenElement {
     fn value(self, session: &Session<'_>) -> f64 {
         session.world.get(FieldKey(self.field.index() as u32), self.index).unwrap_or(f64::NAN)
     }
@@ -59,8 +61,8 @@ impl Element {
     }
 }
 
-/// The elements that a program sets; `None` where it does more than that, or sets what moves by itself.
-fn elements(bound: &Bound) -> Option<Vec<Element>> {
+/// The elements that a program sets. `None` if it has other effects, or sets values that also change by themselves.
+fn elements(bound: &Bound) -> Option<Vec<WrittenElement>> {
     let effects = bound.program.effects();
     let more = effects.writes_everything || effects.any_ctx || effects.calls_values;
     if more || !effects.ctx_writes.is_empty() || !effects.calls.is_empty() {
@@ -73,12 +75,12 @@ fn elements(bound: &Bound) -> Option<Vec<Element>> {
         if field.info().object == Object::Data && field.info().kind != Kind::Input {
             return None;
         }
-        all.extend((write.first..write.first + count).map(|index| Element { field, index }));
+        all.extend((write.first..write.first + count).map(|index| WrittenElement { field, index }));
     }
     (!all.is_empty() && all.len() <= MAX_ELEMENTS).then_some(all)
 }
 
-/// Looks at every control; tells which of them are overruled.
+/// Checks every control, and reports the overwritten ones.
 pub(crate) fn check_overruled_controls(observed: &mut ObservedLab<'_>, findings: &mut Vec<Finding>) {
     let ready = observed.bench.ready;
     for (index, control) in ready.lab.controls.iter().enumerate() {
@@ -108,12 +110,12 @@ pub(crate) fn check_overruled_controls(observed: &mut ObservedLab<'_>, findings:
     }
 }
 
-/// What the lab begins with where the control says another value, in words.
+/// Describes the value at the start if it differs from the value of the control.
 fn initial_value(
     observed: &ObservedLab<'_>,
     index: usize,
     current: &Value,
-    elements: &[Element],
+    elements: &[WrittenElement],
 ) -> Option<String> {
     let ready = observed.bench.ready;
     let mut programs = ready.programs.clone();
@@ -122,17 +124,17 @@ fn initial_value(
     }
     let start = Start { budget: observed.bench.budget(), ..Start::of_lab(ready.lab) };
     let mut session = Session::start(&programs, &ready.model, start);
-    let now = |session: &Session<'_>| elements.iter().map(|e| e.value(session)).collect::<Vec<f64>>();
-    let begins = now(&session);
+    let elements_of = |session: &Session<'_>| elements.iter().map(|e| e.value(session)).collect::<Vec<f64>>();
+    let begins = elements_of(&session);
     session.set_control(index, current.clone());
-    let says = now(&session);
+    let says = elements_of(&session);
     session.set_control(index, current.clone());
-    // What adds to what is there says nothing of the start.
-    if now(&session) != says || session.ended().is_some() {
+    // Statements that add to the current value give no initial value.
+    if elements_of(&session) != says || session.ended().is_some() {
         return None;
     }
-    let apart = |(a, b): (&f64, &f64)| (a - b).abs() > 1e-9 * a.abs().max(b.abs());
-    let at = begins.iter().zip(&says).position(apart)?;
+    let differ = |(a, b): (&f64, &f64)| (a - b).abs() > 1e-9 * a.abs().max(b.abs());
+    let at = begins.iter().zip(&says).position(differ)?;
     let [begins, says] = [begins.get(at)?, says.get(at)?].map(|x| digits(*x, 6));
     Some(format!(
         "it displays {current}, for which {} is {says}, but the lab starts with {begins}",
@@ -140,18 +142,18 @@ fn initial_value(
     ))
 }
 
-/// What the controller makes of it, whatever it is set to, in words.
+/// Describes the value that the controller writes, whatever the value of the control.
 fn overwritten(
     observed: &mut ObservedLab<'_>,
     index: usize,
     control: &Control,
-    elements: &[Element],
+    elements: &[WrittenElement],
 ) -> Option<String> {
     let ready = observed.bench.ready;
     ready.programs.controller.as_ref()?;
     let values = values(control);
     let (mut evidence, mut runs) = (None, 0);
-    // A controller may leave it alone at the start, or later on.
+    // A controller may not write it at the start, or later on.
     let (steps, _) = observed.bench.steps(observed.length)?;
     let late = [steps / 2, steps.saturating_sub(2)]
         .into_iter()
@@ -184,17 +186,17 @@ fn overwritten(
     ))
 }
 
-/// The elements when the control is moved, and one step later.
+/// The elements right after the control is moved, and one step later.
 fn after(
     observed: &mut ObservedLab<'_>,
     setting: &[Move],
     at: usize,
     index: usize,
     value: &Value,
-    elements: &[Element],
+    elements: &[WrittenElement],
 ) -> Option<(Vec<f64>, Vec<f64>)> {
     let mut session = observed.bench.start();
-    let now = |session: &Session<'_>| elements.iter().map(|e| e.value(session)).collect::<Vec<f64>>();
+    let elements_of = |session: &Session<'_>| elements.iter().map(|e| e.value(session)).collect::<Vec<f64>>();
     for step in 0..at {
         for m in setting.iter().filter(|m| m.step == step) {
             match &m.value {
@@ -205,9 +207,9 @@ fn after(
         session.step();
     }
     session.set_control(index, value.clone());
-    let set = now(&session);
+    let set = elements_of(&session);
     session.step();
-    let then = now(&session);
+    let then = elements_of(&session);
     let (spent, completed) = (session.spent(), session.ended().is_none());
     drop(session);
     observed.bench.left = observed.bench.left.saturating_sub(spent);

@@ -21,7 +21,7 @@ pub const PARAM_UNREAD: &Rule = &Rule {
 
 pub(crate) fn check_params(lesson: &Lesson, ready: &PreparedLab<'_>, findings: &mut Vec<Finding>) {
     let programs = &ready.programs;
-    // A text with mistakes may be what reads it.
+    // A text with errors may read it.
     let unknown = ready.mistakes > 0
         || programs.bound().any(|b| b.program.effects().any_ctx || b.program.effects().calls_values);
     if unknown {
@@ -32,7 +32,7 @@ pub(crate) fn check_params(lesson: &Lesson, ready: &PreparedLab<'_>, findings: &
         let (Some(name), ControlProgram::Change(_, bound)) = (&action.param, program) else { continue };
         let reads = |slot: &u32| programs.bound().any(|b| b.program.effects().ctx_reads.contains(slot));
         let does_more = action.set.is_some() || action.apply.is_some();
-        // A measure of the lesson may name it.
+        // A measure of the lesson may read it.
         let named = lesson.file.text().contains(&format!("ctx.{}", name.value));
         if does_more || named || bound.param.as_ref().is_none_or(reads) {
             continue;

@@ -1,6 +1,6 @@
-//! How likely it is that right answers stand where they stand, if their places were drawn by lot.
+//! The probability of the observed positions of correct answers if the positions were random.
 
-/// The chances of 0, 1, 2, … hits when each of some draws hits with its own chance: the exact distribution, draw by draw.
+/// The probabilities of 0, 1, 2, … hits if each draw has its own probability: the exact distribution, draw by draw.
 pub(super) fn hits(chances: &[f64]) -> Vec<f64> {
     let mut all = vec![1.0];
     for p in chances {
@@ -18,7 +18,7 @@ pub(super) fn hits(chances: &[f64]) -> Vec<f64> {
     all
 }
 
-/// The chance of so many hits or more.
+/// The probability of this many hits or more.
 pub(super) fn at_least(chances: &[f64], count: usize) -> f64 {
     hits(chances).iter().skip(count).sum()
 }
@@ -27,7 +27,7 @@ pub(super) fn at_least(chances: &[f64], count: usize) -> f64 {
 mod tests {
     use super::*;
 
-    /// 26 of 42 at one of four places: the sum of the binomial tail, computed with exact fractions.
+    /// 26 of 42 at one of four positions: the tail of the binomial distribution, computed with exact fractions.
     #[test]
     fn the_tail_is_that_of_the_binomial_distribution() {
         let choose = |n: u32, k: u32| (0..k).fold(1.0, |c, i| c * f64::from(n - i) / f64::from(i + 1));

@@ -19,17 +19,17 @@ pub const PREDICTION_UNCHECKED: &Rule = &Rule {
 
 pub(super) const CHECK: Check = Check::Lesson(check_lesson);
 
-/// One note for a lesson, with the count, at the first of them.
+/// Reports one note for a lesson, with the count, at the first prediction.
 fn check_lesson(lesson: &Lesson, findings: &mut Vec<Finding>) {
     let all = lesson.quizzes.iter().flat_map(|q| q.numbered()).map(|(_, q)| q);
     let predictions: Vec<&Question> = all
         .filter(|q| matches!(&q.kind, QuestionKind::Choice { style: ChoiceStyle::Predict, sim: Some(_), .. }))
         .collect();
     let open: Vec<&&Question> = predictions.iter().filter(|q| q.verify.is_none()).collect();
-    // One alone is counted among the answers without a check, and not reported.
+    // A single prediction is not reported, but counted among the unchecked answers.
     let Some(first) = open.first().filter(|_| predictions.len() > 1) else { return };
-    let (count, of) = (open.len(), predictions.len());
-    let message = format!("{count} of {of} predictions have no `verify`; this is the first one");
+    let (count, total) = (open.len(), predictions.len());
+    let message = format!("{count} of {total} predictions have no `verify`; this is the first one");
     findings.push(
         Finding::new(PREDICTION_UNCHECKED, first.span.clone(), message).help(
             "add a `verify` with what to measure in the lab of the question and one condition per option",

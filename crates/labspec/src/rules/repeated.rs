@@ -1,4 +1,4 @@
-//! Texts that stand twice where they should differ.
+//! Duplicate texts where texts must differ.
 
 use crate::finding::Finding;
 use crate::json::read::named;
@@ -6,10 +6,10 @@ use crate::source::Text;
 use labspec_finding::Rule;
 use std::collections::HashMap;
 
-/// What to do about labels that repeat.
+/// The help text about duplicate labels.
 pub(crate) const DISTINCT: &str = "change one of the labels, so that they differ";
 
-/// Reports every text that stood there before.
+/// Reports every text that equals an earlier one.
 pub(crate) fn repeated<'a>(
     rule: &Rule,
     what: &str,

@@ -1,4 +1,5 @@
-//! What physics keeps equal is no mistake. It parts when the scene is put into another state.
+//! Traces that always have the same curve. Values that are equal by physics are not a mistake: they differ if the initial state
+//! changes.
 
 use crate::check::observations::{ObservedLab, column, same};
 use crate::run::Cell;
@@ -21,7 +22,7 @@ pub const SAME_CURVE: &Rule = &Rule {
     ),
 };
 
-/// The first of these curves of a plot that is the same as this one.
+/// Finds the first of these curves of a plot that equals this one.
 pub(crate) fn check_moving_trace(
     observed: &mut ObservedLab<'_>,
     before: Range<usize>,
@@ -43,11 +44,12 @@ pub(crate) fn check_moving_trace(
     )
 }
 
-/// Whether two traces read the same things and are the same in all runs and states.
+/// Whether two traces read the same fields and are equal in all runs and states.
 fn shows_same_curve(observed: &mut ObservedLab<'_>, a: usize, b: usize) -> bool {
     let ready = observed.bench.ready;
-    let of = |c: usize| Some(ready.programs.probes.get(c.checked_sub(1)?)?.bound.as_ref()?.program.effects());
-    let (Some(one), Some(two)) = (of(a), of(b)) else { return false };
+    let effects =
+        |c: usize| Some(ready.programs.probes.get(c.checked_sub(1)?)?.bound.as_ref()?.program.effects());
+    let (Some(one), Some(two)) = (effects(a), effects(b)) else { return false };
     let mut sets = [one, two].map(|e| (e.reads.clone(), e.calls.clone(), e.ctx_reads.clone()));
     sets.iter_mut().for_each(|(reads, calls, slots)| {
         reads.sort();

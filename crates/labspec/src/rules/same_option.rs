@@ -29,7 +29,7 @@ fn check_question(question: &Question, findings: &mut Vec<Finding>) {
     for option in options {
         let words = visible_text(option.as_str());
         match first.get(&words) {
-            // What is the same to the letter is another rule's.
+            // Another rule reports identical texts.
             Some(before) if before.as_str() != option.as_str() && !words.is_empty() => findings.push(
                 Finding::new(
                     SAME_OPTION,

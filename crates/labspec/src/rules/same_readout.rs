@@ -20,7 +20,7 @@ pub const SAME_READOUT: &Rule = &Rule {
 
 pub(super) const CHECK: Check = Check::Lab(check_lab);
 
-/// Whether two labels have a word in common.
+/// Whether two labels have a common word.
 fn share(a: &str, b: &str) -> bool {
     let words = |text: &str| -> Vec<String> {
         let parts = text.split(|c: char| !c.is_alphanumeric()).filter(|w| w.chars().count() > 1);
@@ -32,7 +32,7 @@ fn share(a: &str, b: &str) -> bool {
 
 fn check_lab(lab: &Lab, findings: &mut Vec<Finding>) {
     for (i, readout) in lab.readouts.iter().enumerate() {
-        // More decimals of the same number may be the lesson; another name for it is not.
+        // More decimals of the same number may be intended; another name for it is not.
         let more =
             |r: &Readout| r.digits() != readout.digits() && share(r.label.as_str(), readout.label.as_str());
         let copy = |r: &&Readout| r.expr.value == readout.expr.value && !more(r);

@@ -16,13 +16,13 @@ pub const SELECT_OPTIONS: &Rule = &Rule {
     ),
 };
 
-/// An option that is no pair.
+/// Reports an option that is not a pair.
 pub(crate) fn not_a_pair(span: Range<usize>) -> Finding {
     Finding::new(SELECT_OPTIONS, span, "an option of a select must be a pair [text, value]")
         .help("write [\"RK4\", 1]")
 }
 
-/// A select without options.
+/// Reports a select without options.
 pub(crate) fn no_options(span: Range<usize>) -> Finding {
     Finding::new(SELECT_OPTIONS, span, "this select has no options")
         .help("add \"options\": [[\"Euler\", 0], [\"RK4\", 1]]")

@@ -23,9 +23,9 @@ pub const SETCONST_JUMPS: &Rule = &Rule {
     ),
 };
 
-/// Steps before the control is moved, at most.
+/// The maximum number of steps before the control is moved.
 const STEPS: usize = 400;
-/// A smaller jump is none.
+/// Smaller jumps are ignored.
 const MIN_JUMP: f64 = 1e-6;
 
 pub(crate) fn check_jumps(observed: &ObservedLab<'_>, findings: &mut Vec<Finding>) {
@@ -67,12 +67,12 @@ pub(crate) fn check_jumps(observed: &ObservedLab<'_>, findings: &mut Vec<Finding
         let joint =
             (0..model.njnt).rev().find(|j| model.jnt_qposadr.get(*j).is_some_and(|adr| *adr as usize <= i));
         let name = joint.and_then(|j| model.names.of_kind(Obj::Joint).get(j)).filter(|n| !n.is_empty());
-        let of = name.map_or(String::new(), |n| format!(" of joint \"{n}\""));
+        let of_joint = name.map_or(String::new(), |n| format!(" of joint \"{n}\""));
         let [a, b, time] = [a, b, session.world.data.time()].map(|x| digits(x, 4));
         findings.push(
             Finding::warning(SETCONST_JUMPS, bound.text.span(), format!("the scene jumps when \"{label}\" moves"))
                 .why(format!(
-                    "mj_setConst restores the coordinates of the model: at t = {time} s, data.qpos[{i}]{of} goes from {a} to {b}"
+                    "mj_setConst restores the coordinates of the model: at t = {time} s, data.qpos[{i}]{of_joint} goes from {a} to {b}"
                 ))
                 .help("add \"reset\": true, or keep the coordinates: const q = data.qpos.slice(); …; data.qpos.set(q)"),
         );

@@ -19,9 +19,9 @@ pub const SHORT_WINDOW: &Rule = &Rule {
 
 pub(super) const CHECK: Check = Check::Lab(check_lab);
 
-/// Pictures that a page draws in a second, at most of them.
+/// The maximum number of frames per second of a page.
 const FRAMES: f64 = 60.0;
-/// A curve of fewer points is none.
+/// Curves with fewer points are reported.
 const POINTS: f64 = 10.0;
 
 fn check_lab(lab: &Lab, findings: &mut Vec<Finding>) {

@@ -17,7 +17,7 @@ pub const SHOWS_INFINITE: &Rule = &Rule {
     ),
 };
 
-/// Whether a display is infinite, and does not say so itself.
+/// Reports a display with an infinite value that its text does not announce.
 pub(crate) fn check_cell(display: &WatchedDisplay<'_>, value: &Value, t: f64, done: &str) -> Option<Finding> {
     let Value::Number(x) = value else { return None };
     (x.is_infinite() && !display.says_infinite).then(|| {

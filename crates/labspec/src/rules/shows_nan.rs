@@ -20,7 +20,7 @@ pub const SHOWS_NAN: &Rule = &Rule {
     ),
 };
 
-/// Whether a display has no number to display.
+/// Reports a display without a number.
 pub(crate) fn check_cell(display: &WatchedDisplay<'_>, value: &Value, t: f64, done: &str) -> Option<Finding> {
     let empty = match value {
         Value::Number(x) => x.is_nan(),
@@ -35,7 +35,7 @@ pub(crate) fn check_cell(display: &WatchedDisplay<'_>, value: &Value, t: f64, do
     })
 }
 
-/// A display that was nothing but a gap in all runs.
+/// Reports a display that is a gap in all runs.
 pub(crate) fn always_a_gap(display: &WatchedDisplay<'_>) -> Finding {
     let message = format!("{} shows nan in every run", display.name);
     Finding::warning(SHOWS_NAN, display.bound.text.span(), message)
@@ -46,7 +46,7 @@ pub(crate) fn always_a_gap(display: &WatchedDisplay<'_>) -> Finding {
         })
 }
 
-/// Whether a word stands in a text.
+/// Whether a text contains a word.
 pub(crate) fn contains_word(text: &str, word: &str) -> bool {
     let part = |c: char| c.is_alphanumeric() || c == '_' || c == '$';
     text.match_indices(word).any(|(at, _)| {
@@ -56,7 +56,7 @@ pub(crate) fn contains_word(text: &str, word: &str) -> bool {
     })
 }
 
-/// Whether a text says itself that there may be a gap; to ask whether something is `null` says nothing of what is shown.
+/// Whether a text announces a gap. A comparison with `null` is no announcement.
 pub(crate) fn mentions_gap(text: &str) -> bool {
     let mut asked = text.to_string();
     for how in ["=== ", "!== ", "== ", "!= ", "===", "!==", "==", "!="] {
@@ -67,13 +67,13 @@ pub(crate) fn mentions_gap(text: &str) -> bool {
     ["NaN", "null", "undefined"].iter().any(|word| contains_word(&asked, word))
 }
 
-/// Whether a text reads a variable that holds nothing yet, or NaN because some text stored that on purpose.
+/// Whether a text reads a variable that has no value yet, or a NaN that a program stored on purpose.
 pub(crate) fn is_unset(bound: &Bound, session: &Session<'_>, gaps: &BTreeSet<u32>) -> bool {
     let effects = bound.program.effects();
     let empty = |slot: &u32| match session.context.get(*slot) {
         Value::Undefined | Value::Null => true,
         Value::Number(x) => x.is_nan() && gaps.contains(slot),
-        // Lists and records may have gaps of their own.
+        // Lists and records may contain gaps.
         Value::List(_) | Value::Record(_) => true,
         _ => false,
     };

@@ -20,14 +20,14 @@ pub const SHOWS_THE_START: &Rule = &Rule {
     ),
 };
 
-/// What says where coordinates begin.
+/// Fields with the initial coordinates.
 const STARTS: [&str; 2] = ["qpos0", "key_qpos"];
-/// Beginnings of words in a label that says so itself, and whole words.
+/// Prefixes of words by which a label states that it shows the start, and complete words.
 const START_PREFIXES: [&str; 6] = ["start", "begin", "initial", "referen", "nominal", "origin"];
 const START_WORDS: [&str; 7] = ["rest", "zero", "home", "neutral", "first", "key", "0"];
-/// Steps of the runs that are observed at.
+/// The number of steps of the observed runs.
 const STEPS: usize = 500;
-/// A coordinate that has gone this far has moved, m or rad.
+/// The minimum displacement that counts as motion, m or rad.
 const MIN_MOTION: f64 = 1e-6;
 
 pub(crate) fn check_beginning(observed: &ObservedLab<'_>, findings: &mut Vec<Finding>) {
@@ -79,7 +79,7 @@ pub(crate) fn check_beginning(observed: &ObservedLab<'_>, findings: &mut Vec<Fin
     }
 }
 
-/// Whether a label says that it is about the start.
+/// Whether a label states that it shows the start.
 fn mentions_start(label: &str) -> bool {
     let mut words = label.split(|c: char| !c.is_alphanumeric());
     words.any(|w| {
@@ -87,7 +87,7 @@ fn mentions_start(label: &str) -> bool {
     })
 }
 
-/// The first run in which a coordinate moves: from where, to where, and what was done.
+/// The first run in which a coordinate moves: the initial and final value, and the action.
 fn moves(observed: &ObservedLab<'_>, at: usize) -> Option<(f64, f64, String)> {
     single_moves(observed.bench.ready.lab).into_iter().find_map(|(done, description)| {
         let mut session = observed.bench.start();

@@ -17,10 +17,10 @@ pub const SLIDER_DIGITS: &Rule = &Rule {
     ),
 };
 
-/// Steps of a slider that are looked at.
+/// The maximum number of steps of a slider that are compared.
 const MAX_STEPS: f64 = 100.0;
 
-/// A number without what rounding has left.
+/// Removes the rounding error of a number.
 fn without_rounding(x: f64) -> f64 {
     format!("{x:.12e}").parse().unwrap_or(x)
 }
@@ -36,7 +36,7 @@ fn check_control(control: &Control, findings: &mut Vec<Finding>) {
         return;
     }
     let decimals = digits.value as usize;
-    // Small and large numbers are printed with an exponent, which has digits of its own.
+    // Small and large numbers are printed with an exponent, whose digits differ.
     let plain = |x: f64| x == 0.0 || (1e-3..1e5).contains(&x.abs());
     let printed = |x: f64| format!("{x:.decimals$}");
     let steps = ((max.value - min.value) / step.value).min(MAX_STEPS) as usize;

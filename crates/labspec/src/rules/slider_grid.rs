@@ -19,14 +19,14 @@ pub const SLIDER_GRID: &Rule = &Rule {
 
 pub(super) const CHECK: Check = Check::Control(check_control);
 
-/// How far from a step a value may be, in steps: what rounding makes.
+/// The maximum distance of a value from the grid by rounding, in steps.
 const ROUNDING: f64 = 1e-6;
 
 fn check_control(control: &Control, findings: &mut Vec<Finding>) {
     let ControlKind::Slider { min, max, step: Some(step), value, .. } = &control.kind else { return };
     let inside = (min.value..=max.value).contains(&value.value) && step.value > 0.0;
     let steps = (value.value - min.value) / step.value;
-    // The end of a range may lie between two steps, and a step larger than the range is another rule's.
+    // The end of a range may be between two steps, and another rule reports a step that is larger than the range.
     let ends = value.value == max.value || step.value > max.value - min.value;
     if !inside || ends || (steps - steps.round()).abs() <= ROUNDING {
         return;
@@ -42,7 +42,7 @@ fn check_control(control: &Control, findings: &mut Vec<Finding>) {
     );
 }
 
-/// A number without the last digits, which rounding made.
+/// A number without the last digits, which contain rounding errors.
 fn without_rounding(x: f64) -> f64 {
     format!("{x:.12e}").parse().unwrap_or(x)
 }

@@ -21,7 +21,7 @@ pub(super) const CHECK: Check = Check::Control(check_control);
 
 fn check_control(control: &Control, findings: &mut Vec<Finding>) {
     let ControlKind::Slider { min, max, value, .. } = &control.kind else { return };
-    // An empty range is another rule's.
+    // Another rule reports an empty range.
     if min.value < max.value && !(min.value..=max.value).contains(&value.value) {
         let end = if value.value < min.value { min } else { max };
         let message =

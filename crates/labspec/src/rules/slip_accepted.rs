@@ -20,14 +20,14 @@ pub const SLIP_ACCEPTED: &Rule = &Rule {
 
 pub(super) const CHECK: Check = Check::Question(check_question);
 
-/// What an answer becomes when 10 stands for 9.81.
+/// The factor of an answer that is computed with 10 instead of 9.81.
 const ROUND: f64 = 10.0 / 9.81;
 
 fn check_question(question: &Question, findings: &mut Vec<Finding>) {
     let Some((answer, tolerance)) = question.numeric() else { return };
     let QuestionKind::Numeric { answer: Some(key), tol, .. } = &question.kind else { return };
     let size = answer.abs();
-    // A tolerance as large as the answer is another rule's.
+    // Another rule reports a tolerance that is as large as the answer.
     if size == 0.0 || tolerance >= size || tolerance < 0.0 {
         return;
     }

@@ -1,5 +1,5 @@
-//! Statements that read what follows from the state just after they have written it: whether it shows, by running the lab with
-//! `mj_forward` between.
+//! Statements that write the state and then read values derived from it. Running the lab with an `mj_forward` between them shows
+//! whether the difference is visible.
 
 use crate::bind::{Bound, ControlProgram, Programs, include};
 use crate::check::choices::choices;
@@ -27,13 +27,13 @@ pub const STALE_READ: &Rule = &Rule {
     ),
 };
 
-/// Steps of the runs that are compared.
+/// The number of steps of the compared runs.
 const STEPS: usize = 200;
-/// A difference that can be seen, of the range of a curve.
+/// The smallest visible difference, as a fraction of the range of a curve.
 const VISIBLE_FRACTION: f64 = 1e-3;
 const FORWARD: &str = "mj.mj_forward(model, data)";
 
-/// Where a program stands.
+/// The place of a program in a lab.
 #[derive(Clone, Copy)]
 enum ProgramSite {
     Setup,
@@ -71,7 +71,7 @@ pub(crate) fn check_stale_reads(observed: &mut ObservedLab<'_>, findings: &mut V
     }
 }
 
-/// Whether a program writes the state and reads what follows from it.
+/// Whether a program writes the state and then reads derived values.
 fn reads_after_write(bound: &Bound) -> bool {
     let is = |a: &labspec_expr::Access, kinds: &[Kind]| {
         FieldId::new(a.field.0 as usize)
@@ -82,7 +82,7 @@ fn reads_after_write(bound: &Bound) -> bool {
         && bound.program.own_writes().iter().any(|a| is(a, &[Kind::State, Kind::Input]))
 }
 
-/// The statements of a text that stand in no block; `None` where comments stand between.
+/// The top-level statements of a text. `None` if there are comments between them.
 pub(super) fn parts(text: &str) -> Option<Vec<String>> {
     let mut depth = 0_i32;
     let mut quote = None;
@@ -104,7 +104,7 @@ pub(super) fn parts(text: &str) -> Option<Vec<String>> {
     (!text.contains("//") && !text.contains("/*")).then_some(parts)
 }
 
-/// The statements with `mj_forward` behind each that writes the state; `None` where the text does not show that.
+/// The statements with an `mj_forward` after each one that writes the state. `None` if the text does not show which do.
 fn with_forward(text: &str) -> Option<String> {
     let parts = parts(text)?;
     let writes = |part: &str| {
@@ -148,7 +148,7 @@ fn lab_with_statements(
     Some(programs)
 }
 
-/// What a student does to see a program at work, in words.
+/// The actions of a student that execute a program, with descriptions.
 fn trials(lab: &Lab, place: ProgramSite) -> Vec<(Vec<Move>, String)> {
     let mut all = vec![(Vec::new(), "as the lab stands".to_string())];
     let ProgramSite::Control(i) = place else { return all };
@@ -168,7 +168,7 @@ fn trials(lab: &Lab, place: ProgramSite) -> Vec<(Vec<Move>, String)> {
     all
 }
 
-/// The first difference that can be seen, in words.
+/// Describes the first visible difference.
 fn first_visible_difference(
     observed: &mut ObservedLab<'_>,
     place: ProgramSite,
@@ -192,14 +192,14 @@ fn first_visible_difference(
             let (low, high) =
                 numbers.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
             let readout = c.checked_sub(ready.lab.traces().count()).and_then(|i| ready.lab.readouts.get(i));
-            let apart = |a: &Cell, b: &Cell| match readout {
+            let differ = |a: &Cell, b: &Cell| match readout {
                 Some(r) => {
                     a.rounded(r.digits()) != b.rounded(r.digits())
                         && (a.number() - b.number()).abs() > 1e-9 * high.abs().max(low.abs())
                 }
                 None => (a.number() - b.number()).abs() > VISIBLE_FRACTION * (high - low),
             };
-            if let Some((time, a, b)) = cells().find(|(_, a, b)| apart(a, b)) {
+            if let Some((time, a, b)) = cells().find(|(_, a, b)| differ(a, b)) {
                 let name = probe.name.splitn(3, '/').last().unwrap_or("");
                 let [a, b] = [a, b].map(|x| setconst::digits(x.number(), 5));
                 return Some(format!(

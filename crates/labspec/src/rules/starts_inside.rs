@@ -20,14 +20,14 @@ pub const STARTS_INSIDE: &Rule = &Rule {
     ),
 };
 
-/// A contact deeper than this part of the smaller geom's half thickness is no contact.
+/// The largest normal depth of a contact, as a fraction of half the thickness of the smaller geom.
 const MAX_DEPTH_FRACTION: f64 = 0.3;
-/// What is thrown out has come half of the way after so many steps.
+/// The number of steps within which a penetration must halve to count as an ejection.
 const STEPS: usize = 200;
 
 pub(crate) fn check_start(observed: &ObservedLab<'_>, findings: &mut Vec<Finding>) {
     let ready = observed.bench.ready;
-    // Every stage: contacts are not computed where nothing reads them.
+    // All stages: a reduced plan does not compute contacts that nothing reads.
     let start = Start { plan: Some(Plan::full()), ..Start::of_lab(ready.lab) };
     let mut session = Session::start(&ready.programs, &ready.model, start);
     let Some((pair, depth)) = deepest(&session) else { return };
@@ -50,7 +50,7 @@ pub(crate) fn check_start(observed: &ObservedLab<'_>, findings: &mut Vec<Finding
     );
 }
 
-/// The deepest contact that is too deep, of what may move.
+/// The deepest contact of a movable body that exceeds the limit.
 fn deepest(session: &Session<'_>) -> Option<([usize; 2], f64)> {
     let (model, data) = (&session.world.model, session.world.data.fields());
     let deep = data.contact.iter().filter_map(|c| {
@@ -61,7 +61,7 @@ fn deepest(session: &Session<'_>) -> Option<([usize; 2], f64)> {
     deep.max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
-/// How deep these two are in each other.
+/// The penetration depth of these two geoms.
 fn contact(session: &Session<'_>, pair: [usize; 2]) -> f64 {
     let all = session.world.data.fields().contact.iter();
     let of_pair = all.filter(|c| [c.geom1, c.geom2] == pair);

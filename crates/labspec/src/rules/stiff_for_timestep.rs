@@ -19,7 +19,7 @@ pub const STIFF_FOR_TIMESTEP: &Rule = &Rule {
     ),
 };
 
-/// What of a lab's scene no step of its length can follow, though its run did not show it.
+/// Reports the part of a scene that is unstable at this timestep, although no run diverged.
 pub(crate) fn check_stiffness(model: &Model, place: Range<usize>, covered: &str) -> Option<Finding> {
     let worst = stability::unstable_parts(model).into_iter().next()?;
     let [owner, how] = [run::owner(model, &worst), run::how_stiff(&worst)];

@@ -20,7 +20,7 @@ pub const STOP_UNREACHED: &Rule = &Rule {
 pub(crate) fn check_stop_reached(observed: &ObservedLab<'_>, findings: &mut Vec<Finding>) {
     let Some(stop) = &observed.bench.ready.lab.stop_at else { return };
     let Some((_, timestep)) = observed.bench.steps(observed.length) else { return };
-    // As it stands; the run was long enough if time had gone on.
+    // The nominal run. It was long enough if time had advanced.
     let Some(nominal) =
         observed.records.first().filter(|r| r.moved.is_none() && observed.length >= stop.value)
     else {

@@ -21,13 +21,13 @@ pub const STOPS_EARLY: &Rule = &Rule {
     ),
 };
 
-/// A lab that runs for so many steps shows something.
+/// A lab that runs for this many steps is not reported.
 const MIN_STEPS: usize = 50;
-/// How long it is run to see what would happen, s.
+/// The length of the longer run, s.
 const LONGER_RUN: f64 = 2.0;
-/// A run of this part of a plot's width is a dot.
+/// A run shorter than this fraction of a plot's width is visible only as a dot.
 const DOT_FRACTION: f64 = 0.02;
-/// A curve has moved when it has come this share of its way.
+/// The fraction of its range by which a curve must change to count as moving.
 const VISIBLE_FRACTION: f64 = 0.02;
 
 pub(crate) fn check_early_stop(observed: &mut ObservedLab<'_>, findings: &mut Vec<Finding>) {
@@ -50,7 +50,7 @@ pub(crate) fn check_early_stop(observed: &mut ObservedLab<'_>, findings: &mut Ve
     else {
         return;
     };
-    // What has moved when the lab stops, it shows.
+    // A display that changes before the lab stops is visible.
     let seen = observed.records.iter().any(|r| {
         (1..start.len()).any(|c| match (all_range(&all.rows, c), r.rows.first(), r.rows.last()) {
             (Some(range), Some(a), Some(b)) => changed(observed, c, range, a.get(c), b.get(c)),
@@ -81,7 +81,7 @@ fn stops_after_first_step(stop: &Number, timestep: f64) -> Finding {
         .help("make `stopAt` larger; for a single intended step, write the length of a step")
 }
 
-/// `what` changes first in a longer run, at this time.
+/// Reports that `what` changes first in a longer run, at this time.
 fn stops_before_change(stop: &Number, steps: usize, timestep: f64, what: &str, time: f64) -> Finding {
     let message = "the lab stops before anything that it shows changes";
     Finding::warning(STOPS_EARLY, stop.span.clone(), message)
@@ -94,7 +94,7 @@ fn stops_before_change(stop: &Number, steps: usize, timestep: f64, what: &str, t
         .help("make `stopAt` larger, or delete it")
 }
 
-/// Whether a column reads time and nothing else.
+/// Whether a column reads only the time.
 fn clock(observed: &ObservedLab<'_>, c: usize) -> bool {
     let probe = c.checked_sub(1).and_then(|i| observed.bench.ready.programs.probes.get(i));
     let Some(effects) = probe.and_then(|p| p.bound.as_ref()).map(|b| b.program.effects()) else {
@@ -105,14 +105,14 @@ fn clock(observed: &ObservedLab<'_>, c: usize) -> bool {
         && effects.reads.iter().all(|a| a.field.0 as usize == data::time.index())
 }
 
-/// How far a column goes; `None` for what is no number, and for a clock.
+/// The range of a column. `None` if it is not a number, or reads only the time.
 fn all_range(rows: &[Vec<Cell>], c: usize) -> Option<f64> {
     let numbers = rows.iter().filter_map(|r| r.get(c)).map(Cell::number).filter(|x| x.is_finite());
     let (low, high) = numbers.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
     (high > low).then_some(high - low)
 }
 
-/// Whether somebody sees that a column has changed.
+/// Whether a change of a column is visible.
 fn changed(observed: &ObservedLab<'_>, c: usize, range: f64, a: Option<&Cell>, b: Option<&Cell>) -> bool {
     let (Some(a), Some(b)) = (a, b) else { return false };
     if clock(observed, c) {
@@ -125,7 +125,7 @@ fn changed(observed: &ObservedLab<'_>, c: usize, range: f64, a: Option<&Cell>, b
     }
 }
 
-/// When a column changes first, and what it is called.
+/// The time of the first change of a column, and the name of the column.
 fn first(observed: &ObservedLab<'_>, rows: &[Vec<Cell>], c: usize) -> Option<(f64, String)> {
     let range = all_range(rows, c)?;
     let start = rows.first()?.get(c);

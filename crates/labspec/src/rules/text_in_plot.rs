@@ -17,7 +17,7 @@ pub const TEXT_IN_PLOT: &Rule = &Rule {
     ),
 };
 
-/// Whether a trace is a string.
+/// Reports a trace whose value is a string.
 pub(crate) fn check_cell(display: &WatchedDisplay<'_>, value: &Value, t: f64, done: &str) -> Option<Finding> {
     (display.trace && matches!(value, Value::String(_))).then(|| {
         let (name, moment) = (&display.name, moment(t, done));

@@ -20,15 +20,15 @@ pub const TOO_FEW_DIGITS: &Rule = &Rule {
     ),
 };
 
-/// A value that changes by less than this share of itself hardly changes.
+/// The relative change below which a value is nearly constant.
 const MIN_RELATIVE_CHANGE: f64 = 0.5;
-/// The same where one text is printed whatever happens, and where two are, without decimals.
+/// The same limit if only one text is printed, and if two texts without decimals are printed.
 const NEARLY_CONSTANT: f64 = 0.05;
 const NEARLY_CONSTANT_TWO_TEXTS: f64 = 0.1;
-/// So many different values are no count of something.
+/// With this many different values, the quantity is not a count.
 const MIN_VALUES: usize = 20;
 
-/// `c` is the column of the readout.
+/// Checks a readout. `c`: its column.
 pub(crate) fn check_readout(observed: &ObservedLab<'_>, readout: &Readout, c: usize) -> Option<Finding> {
     let cells = || column(observed.records, c);
     let numbers = || cells().map(Cell::number);
@@ -38,17 +38,17 @@ pub(crate) fn check_readout(observed: &ObservedLab<'_>, readout: &Readout, c: us
     let (low, high) = numbers().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
     let unit = 10_f64.powi(-(readout.digits() as i32));
     let values: BTreeSet<u64> = numbers().filter(|x| x.fract() != 0.0).map(f64::to_bits).collect();
-    // What is nearly 0 is printed with an exponent, and so not rounded.
+    // Numbers near 0 are printed with an exponent, and thus not rounded.
     let rounded = 4 * numbers().filter(|x| *x == 0.0 || x.abs() >= 1e-3).count() >= 3 * numbers().count();
     let many = values.len() >= MIN_VALUES && rounded;
     let share = (high - low) / low.abs().max(high.abs());
     let printed: BTreeSet<String> =
         cells().map(|c| c.rounded(readout.digits()).trim_start_matches('-').to_string()).collect();
-    // One text, or two next to each other, for all that it does.
+    // One text, or two adjacent ones, for all values.
     let few = readout.digits() == 0
         && (printed.len() == 1 && share > NEARLY_CONSTANT
             || printed.len() == 2 && share > NEARLY_CONSTANT_TWO_TEXTS);
-    // A number that is never 0, and is printed as 0.
+    // A number that is never 0, but is printed as 0.
     let nothing = printed.iter().all(|t| t == "0") && (low >= 1e-3 || high <= -1e-3);
     let few = few || nothing;
     if !nothing && !(many && (share > MIN_RELATIVE_CHANGE && high - low < 2.0 * unit || few)) {

@@ -21,11 +21,11 @@ pub const TOO_MANY_DIGITS: &Rule = &Rule {
     ),
 };
 
-/// A readout is observed at this many times.
+/// The number of times at which a readout is observed.
 const OBSERVATIONS: usize = 10;
-/// Two decimals too many: the other run differs by so many units of the last one, at most of the looks.
+/// Two decimals too many: the other run differs by at least this many units of the last decimal, at most of the observations.
 const UNITS: f64 = 100.0;
-/// Steps of the runs.
+/// The number of steps of the runs.
 const STEPS: usize = 5000;
 
 const HALF_TIMESTEP: StepVariant = StepVariant { timestep: 0.5, ..StepVariant::NOMINAL };
@@ -36,7 +36,7 @@ pub(crate) fn check_surplus_digits(observed: &mut ObservedLab<'_>, findings: &mu
         let timestep = option::timestep.index();
         e.reads_everything || e.reads.iter().chain(&e.writes).any(|a| a.field.0 as usize == timestep)
     };
-    // Where a text speaks of the timestep, what it makes of the numbers is the lesson.
+    // If a text reads the timestep, its effect on the numbers is the lesson.
     if ready.lab.readouts.is_empty() || ready.programs.bound().any(|b| of_timestep(b.program.effects())) {
         return;
     }
@@ -55,12 +55,12 @@ pub(crate) fn check_surplus_digits(observed: &mut ObservedLab<'_>, findings: &mu
             let at = |row: &Vec<Cell>| row.get(first + i).map_or(f64::NAN, Cell::number);
             (at(a) - at(b)).abs() / last
         };
-        let mut apart: Vec<f64> = nominal.iter().zip(&fine).map(|pair| differs(&pair)).collect();
-        if apart.iter().any(|x| !x.is_finite()) {
+        let mut differences: Vec<f64> = nominal.iter().zip(&fine).map(|pair| differs(&pair)).collect();
+        if differences.iter().any(|x| !x.is_finite()) {
             continue;
         }
-        apart.sort_by(f64::total_cmp);
-        let middle = apart.get(apart.len() / 2).copied().unwrap_or(0.0);
+        differences.sort_by(f64::total_cmp);
+        let middle = differences.get(differences.len() / 2).copied().unwrap_or(0.0);
         let good = readout.digits() as i32 - middle.max(1.0).log10().floor() as i32;
         if middle < UNITS || good < 0 {
             continue;
@@ -90,7 +90,7 @@ pub(crate) fn check_surplus_digits(observed: &mut ObservedLab<'_>, findings: &mu
     }
 }
 
-/// What is shown in a run at a few times, with the timestep as it is or with half of it.
+/// The displayed values of a run at a few times, with the timestep divided by `parts`.
 fn samples(observed: &mut ObservedLab<'_>, steps: usize, parts: usize) -> Option<Vec<Vec<Cell>>> {
     let mut session = observed.bench.start();
     if parts > 1 {

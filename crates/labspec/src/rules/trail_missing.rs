@@ -21,11 +21,11 @@ pub const TRAIL_MISSING: &Rule = &Rule {
 
 pub(super) const CHECK: Check = Check::Model(check_lab);
 
-/// Most sites that are listed.
+/// The maximum number of listed sites.
 const MOST_LISTED: usize = 12;
 
 fn check_lab(lab: &Lab, model: &Model, findings: &mut Vec<Finding>) {
-    // Without a name no path is asked for.
+    // An empty name requests no path.
     let Some(trail) = lab.trail.as_ref().filter(|t| !t.as_str().is_empty()) else { return };
     let name = trail.as_str();
     let sites = || model.names.of_kind(Obj::Site).iter().map(String::as_str).filter(|site| !site.is_empty());
@@ -60,7 +60,7 @@ mod tests {
     use crate::lint::{ModelFolder, load_lesson};
     use crate::source::SourceFile;
 
-    /// What is found in a lab with this trail, whose model has these sites in its body `rod`.
+    /// The findings for a lab with this trail, whose model has these sites in its body `rod`.
     fn found(trail: &str, sites: &str) -> Vec<Finding> {
         let model = format!(
             "<mujoco><worldbody><body name='rod'><geom name='bar' size='1'/>{sites}</body></worldbody></mujoco>"

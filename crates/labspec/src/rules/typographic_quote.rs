@@ -20,7 +20,7 @@ pub const TYPOGRAPHIC_QUOTE: &Rule = &Rule {
 
 pub(super) const CHECK: Check = Check::Lab(check_lab);
 
-/// Looks into the statements and expressions of a lab: one finding for all quotes of a text, with one repair.
+/// Checks the statements and expressions of a lab: one finding for all quotes of a text, with one fix.
 fn check_lab(lab: &Lab, findings: &mut Vec<Finding>) {
     for (_, code) in lab.code() {
         let (mut quoted, mut found) = (None, Vec::new());
@@ -42,7 +42,7 @@ fn check_lab(lab: &Lab, findings: &mut Vec<Finding>) {
         let right = code.value.get(part.clone()).unwrap_or("").replace(is_typographic, "'");
         let mut finding = Finding::new(TYPOGRAPHIC_QUOTE, code.span_of(first.clone()), message)
             .help("write ' around names: data.body('ball')");
-        // What stands in plain quotes between them keeps its own.
+        // Typographic quotes inside plain quotes are not replaced.
         if !right.contains(['"', '`']) && found.len() == right.matches('\'').count() && found.len() % 2 == 0 {
             finding.fix = Some(fix_in(code, part, &right));
         }
@@ -50,7 +50,7 @@ fn check_lab(lab: &Lab, findings: &mut Vec<Finding>) {
     }
 }
 
-/// The quotes of a listing: one finding for all of them.
+/// Reports the quotes of a listing in one finding.
 pub(crate) fn check_listing_quotes(body: &Text, scan: &CodeScan, findings: &mut Vec<Finding>) {
     let Some(first) = scan.quotes.first() else { return };
     // The first quote of every line.
@@ -77,7 +77,7 @@ pub(crate) fn check_listing_quotes(body: &Text, scan: &CodeScan, findings: &mut 
     findings.push(finding);
 }
 
-/// Quotes of the JSON itself; `last` is the last of them.
+/// Reports typographic quotes in the JSON itself. `last`: the last of them.
 pub(crate) fn quotes_of_json(span: Range<usize>, count: usize, last: Option<Range<usize>>) -> Finding {
     let plural = if count == 1 { "" } else { "s" };
     let message = format!("JSON has {count} typographic quote{plural} where it needs \"");

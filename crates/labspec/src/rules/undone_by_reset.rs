@@ -23,9 +23,9 @@ pub const UNDONE_BY_RESET: &Rule = &Rule {
     ),
 };
 
-/// When the button is pressed, steps.
+/// The step at which the button is pressed.
 const STEPS: usize = 40;
-/// How a reset is written.
+/// The calls that reset.
 const RESETS: [&str; 4] = ["mj.mj_resetData(", "mj_resetData(", "mj.mj_resetDataKeyframe(", "sim.reset("];
 
 pub(crate) fn check_undone_writes(observed: &mut ObservedLab<'_>, findings: &mut Vec<Finding>) {
@@ -44,7 +44,7 @@ pub(crate) fn check_undone_writes(observed: &mut ObservedLab<'_>, findings: &mut
         let bench = setconst::SetConstBench::new(ready.lab, &ready.model, &ready.programs);
         let [first, then] = [before.as_str(), last.as_str()].map(|t| bench.compile(&bound.text, t, None));
         let (Some(first), Some(then)) = (first, then) else { continue };
-        // To begin with a plain reset and then to take a keyframe loses nothing.
+        // A plain reset before a reset to a keyframe loses nothing.
         let resets = before.split(';').any(|p| is_reset(p) && p.contains("Keyframe"));
         let Some((name, set, left)) = first_lost_write(observed, &first, &then, resets) else {
             continue;
@@ -64,7 +64,7 @@ pub(crate) fn check_undone_writes(observed: &mut ObservedLab<'_>, findings: &mut
     }
 }
 
-/// The first number that the first statements set and the reset behind them takes back; `None` where anything of it is left.
+/// The first number that the first statements set and that the following reset discards. `None` if any of their effects remains.
 fn first_lost_write(
     observed: &ObservedLab<'_>,
     first: &Bound,
@@ -107,7 +107,7 @@ fn first_lost_write(
     let set = state(&session);
     session.run_statements(&then.program, &then.text);
     let left = state(&session);
-    // What is kept beside the state is a choice that a reset leaves.
+    // A value stored outside the state survives a reset.
     let survives_reset = !resets && !effects.ctx_writes.is_empty();
     let gone = set.iter().zip(&left).find(|(a, b)| (a.1 - b.1).abs() > 1e-9 * a.1.abs().max(b.1.abs()));
     let ((name, a), (_, b)) = gone.filter(|_| !survives_reset && session.ended().is_none())?;

@@ -1,4 +1,4 @@
-//! Names of model elements written as tags: a browser takes them for HTML and shows nothing.
+//! Names of model elements written as tags: a browser reads them as HTML and shows nothing.
 
 use super::MAX_IN_TEXT;
 use crate::markdown::html::{HtmlTag, tags};
@@ -17,8 +17,8 @@ pub const UNESCAPED_ELEMENT: &Rule = &Rule {
     good: Example::Lesson("Both are set in the `<option>` element, that is &lt;option&gt;.\n"),
 };
 
-/// Elements of MJCF that no lesson means as HTML (XML reference of MuJoCo 3). Elements that HTML or SVG
-/// fragments really use (`text`, `image`, `frame`, `filter`, `layer`) are left out.
+/// Elements of MJCF that no lesson intends as HTML (XML reference of MuJoCo 3). Elements that also occur in HTML or SVG (`text`,
+/// `image`, `frame`, `filter`, `layer`) are not listed.
 #[rustfmt::skip]
 const ELEMENTS: [&str; 64] = [
     "accelerometer", "actuator", "adhesion", "asset", "attach", "body", "camera", "compiler", "composite",
@@ -31,24 +31,24 @@ const ELEMENTS: [&str; 64] = [
 ];
 const WORLD: &str = "worldbody";
 
-/// Whether an element is one of models, which no lesson means as HTML.
+/// Whether an element belongs to MJCF, and no lesson intends it as HTML.
 pub(super) fn is_of_models(name: &str) -> bool {
     ELEMENTS.contains(&name) || name == WORLD
 }
 
-/// Tags of model elements in a piece of HTML: byte range and name.
+/// The tags of model elements in a piece of HTML: byte range and name.
 fn model_tags(html: &str) -> Vec<(Range<usize>, String)> {
     let all: Vec<HtmlTag> = tags(html).collect();
-    // A form that really offers options is HTML.
+    // A form with options is HTML.
     let form = all.iter().any(|tag| tag.name == "select");
     let of_models = all.into_iter().filter_map(|HtmlTag { at, name, closing, .. }| {
         let name_end = at.start + 1 + usize::from(closing) + name.len();
-        // Names of models have small letters; a name that the text ends with may go on.
+        // Names of model elements are in lower case. A name at the end of the text may be incomplete.
         let small = html.get(at.start..name_end).is_some_and(|text| text.ends_with(&name));
         if !small || at.end == name_end || !is_of_models(&name) || form && name == "option" {
             return None;
         }
-        // Attributes end soon; a `<` before the `>` means that this tag has none.
+        // Attributes are short. A `<` before the `>` means that this tag has no attributes.
         let attributes = html.get(name_end..at.end).unwrap_or("");
         let end = if attributes.contains('<') || !attributes.ends_with('>') { name_end } else { at.end };
         Some((at.start..end, name))
@@ -64,7 +64,7 @@ fn finding(tag: &str, span: Range<usize>) -> Finding {
         .fix(span, escaped)
 }
 
-/// Looks into HTML that stands in the Markdown text, for so many findings at most.
+/// Checks the HTML of Markdown text. Returns at most `most` findings.
 pub(crate) fn in_markdown(text: &str, range: Range<usize>, most: usize) -> Vec<Finding> {
     let html = text.get(range.clone()).unwrap_or("");
     model_tags(html)
@@ -81,11 +81,11 @@ pub(crate) fn in_markdown(text: &str, range: Range<usize>, most: usize) -> Vec<F
         .collect()
 }
 
-/// Looks into a text of a lab or a quiz.
+/// Checks a text of a lab or a quiz.
 pub(crate) fn check_html(text: &Text, findings: &mut Vec<Finding>) {
     for (tag, _) in model_tags(text.as_str()).into_iter().take(MAX_IN_TEXT) {
         let mut found = finding(text.value.get(tag.clone()).unwrap_or(""), text.span_of(tag));
-        // Inside of JSON the quotes of attributes are escaped; the replacement must be so too.
+        // In JSON, the quotes of attributes are escaped, so the replacement escapes them too.
         if let Some(fix) = &mut found.fix {
             fix.text = fix.text.replace('\\', "\\\\").replace('"', "\\\"").replace('\n', "\\n");
         }

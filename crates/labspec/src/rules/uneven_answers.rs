@@ -18,14 +18,14 @@ pub const UNEVEN_ANSWERS: &Rule = &Rule {
     ),
 };
 
-/// Chance may do it once in a thousand courses.
+/// The threshold probability: one course in a thousand by chance.
 const MAX_PROBABILITY: f64 = 1e-3;
-/// So many questions say enough.
+/// The maximum number of questions that are counted.
 const MAX_QUESTIONS: usize = 3000;
-/// Places that are looked at.
+/// The maximum number of positions that are counted.
 const MAX_POSITIONS: usize = 26;
 
-/// Checks the whole course: reported once, at the first question whose answer stands there.
+/// Checks the whole course. Reports once, at the first question with the answer at that position.
 pub(super) fn across(lessons: &[&Lesson]) -> Vec<Finding> {
     let mut keys = Vec::new();
     for lesson in lessons {
@@ -44,7 +44,7 @@ pub(super) fn across(lessons: &[&Lesson]) -> Vec<Finding> {
     let Some(place) = (0..places).max_by_key(|p| (count_at(*p), places - p)) else { return Vec::new() };
     let chances: Vec<f64> =
         keys.iter().map(|(_, n, ..)| if place < *n { 1.0 / *n as f64 } else { 0.0 }).collect();
-    // Any of the places could have been the one.
+    // The same could have happened at any of the positions.
     let chance = places as f64 * at_least(&chances, count_at(place));
     let Some((.., file, span)) = keys.iter().find(|k| k.0 == place) else { return Vec::new() };
     if chance >= MAX_PROBABILITY {

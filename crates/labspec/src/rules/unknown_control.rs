@@ -22,7 +22,7 @@ pub const UNKNOWN_CONTROL: &Rule = &Rule {
 
 pub(super) const CHECK: Check = Check::Lesson(check_lesson);
 
-/// A hostile object can set thousands of controls; the first mistakes are enough.
+/// A hostile object can set thousands of controls; only the first mistakes are reported.
 const MAX_FINDINGS: usize = 50;
 const MAX_CONTROLS: usize = 200;
 
@@ -38,10 +38,10 @@ fn check_lesson(lesson: &Lesson, findings: &mut Vec<Finding>) {
     }
 }
 
-/// Whether the lab has a control of this label that can be set, or pressed.
+/// Reports a label that names no control of the lab that can be set, or pressed.
 fn missing(label: &Text, lab: &Lab, press: bool) -> Option<Finding> {
     let fits = |kind: &ControlKind| matches!(kind, ControlKind::Button { .. }) == press;
-    // A control that could not be read may be the one that is meant.
+    // A control that could not be parsed may be the intended one.
     if lab.unread_controls || lab.control(label.as_str()).is_some_and(|c| fits(&c.kind)) {
         return None;
     }

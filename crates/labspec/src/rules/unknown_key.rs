@@ -16,11 +16,11 @@ pub const UNKNOWN_KEY: &Rule = &Rule {
     good: Example::Lab(r#"{"model": "ball", "readouts": [{"label": "t", "expr": "data.time"}]}"#),
 };
 
-/// A key that the object does not have.
-pub(crate) fn describe_key(span: Range<usize>, of: &str, key: &str, meant: &Meant) -> Finding {
+/// Reports an unknown key of an object.
+pub(crate) fn describe_key(span: Range<usize>, object: &str, key: &str, meant: &Meant) -> Finding {
     let message = match key.trim().is_empty() {
-        true => format!("a key of {of} has no name"),
-        false => format!("{of} has no key `{}`", shorten(key)),
+        true => format!("a key of {object} has no name"),
+        false => format!("{object} has no key `{}`", shorten(key)),
     };
     let finding = Finding::new(UNKNOWN_KEY, span.clone(), message);
     match meant {

@@ -30,7 +30,7 @@ fn check_lesson(lesson: &Lesson, findings: &mut Vec<Finding>) {
         let message = match lesson.verify_at(address) {
             None => format!("{} has no `verify`", read::named(text.as_str())),
             Some(used) if used.span == claim.verify.span => "this `verify` uses itself".to_string(),
-            // Nothing of it could be read.
+            // The referenced object could not be resolved.
             Some(_) if std::ptr::eq(lesson.whole(claim.verify), claim.verify) => {
                 "the lesson uses other `verify` objects too often".to_string()
             }
@@ -43,7 +43,7 @@ fn check_lesson(lesson: &Lesson, findings: &mut Vec<Finding>) {
     }
     for lab in named {
         let VerifyLab::Reference(text, address) = lab else { continue };
-        // A lab that is there and could not be read has been reported.
+        // A lab that exists but could not be parsed is already reported.
         let broken = matches!(address, LabAddress::Lab(n) if *n <= lesson.labs.len());
         if broken || lesson.lab(address).is_some() {
             continue;
@@ -59,13 +59,13 @@ fn check_lesson(lesson: &Lesson, findings: &mut Vec<Finding>) {
     }
 }
 
-/// A text where an address must be, which the format cannot tell from one.
+/// Reports a text that is not an address, where an address is required.
 pub(crate) fn not_an_address(span: Range<usize>, text: &str) -> Finding {
     Finding::new(UNKNOWN_LAB, span, format!("{} is not the address of a lab", read::named(text)))
         .help("write \"#2\" for the second lab of the lesson, \"#quiz-id.1\" for the sim of a quiz's first question, or a lab object")
 }
 
-/// A lab of another lesson that cannot be used: `other` says why that one has none, if that lesson was read.
+/// Reports a lab of another lesson that cannot be used. `other`: the reason, if that lesson was read.
 pub(crate) fn lab_of_other_lesson(text: &Text, other: Option<Option<&str>>) -> Finding {
     let name = read::named(text.as_str());
     let message = match other {

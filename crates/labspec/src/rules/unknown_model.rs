@@ -15,7 +15,7 @@ pub const UNKNOWN_MODEL: &Rule = &Rule {
     good: Example::Lab(r#"{"model": "ball"}"#),
 };
 
-/// Whether a folder whose models are listed has this one.
+/// Reports a model that is not in the listed folder.
 pub(crate) fn check_model(name: &Text, models: &ModelFolder) -> Option<Finding> {
     let (text, names) = (name.as_str(), models.names()?);
     if names.iter().any(|n| n == text) {
@@ -34,7 +34,7 @@ pub(crate) fn check_model(name: &Text, models: &ModelFolder) -> Option<Finding> 
     })
 }
 
-/// Whether a folder that is given and cannot be listed has this model.
+/// Reports a model that is not in the folder, if the folder cannot be listed.
 pub(crate) fn check_unlisted(name: &Text, folder: &ModelFolder) -> Option<Finding> {
     (folder.given().is_some() && !folder.has(&name.value)).then(|| {
         let message = format!("the model `{}` does not exist", name.value);

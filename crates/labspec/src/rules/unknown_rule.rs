@@ -15,7 +15,7 @@ pub const UNKNOWN_RULE: &Rule = &Rule {
     good: Example::Lab(r#"{"model": "ball", "readouts": [{"label": "z", "expr": "data.qpos[2]"}]}"#),
 };
 
-/// A code of an allowance that is the code of none of these rules.
+/// Reports a suppression of an unknown code, and names the nearest one.
 pub(crate) fn name_nearest(
     code: &str,
     span: Range<usize>,

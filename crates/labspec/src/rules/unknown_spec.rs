@@ -12,7 +12,7 @@ pub const UNKNOWN_SPEC: &Rule = &Rule {
     good: Example::Json(r#"{"title": "Falling", "model": "ball"}"#),
 };
 
-/// An object with none of the keys by which labs and quizzes are recognized.
+/// Reports an object without any of the keys that identify labs and quizzes.
 pub(crate) fn unrecognized(span: Range<usize>) -> Finding {
     Finding::new(UNKNOWN_SPEC, span, "the object is neither a lab nor a quiz")
         .help("add `model` or `xml` for a lab, or `questions` for a quiz")

@@ -17,7 +17,7 @@ pub const UNUSED_ALLOWANCE: &Rule = &Rule {
     ),
 };
 
-/// A code of an allowance that suppresses nothing; `None` where a check to this depth cannot tell.
+/// Reports a suppression that matches no finding. `None` if a check at this level cannot decide that.
 pub(crate) fn check_use(rule: &Rule, span: Range<usize>, level: CheckLevel) -> Option<Finding> {
     can_find(rule.layer, level).then(|| {
         Finding::new(UNUSED_ALLOWANCE, span, format!("`{}` matches no finding here", rule.code))
@@ -25,7 +25,7 @@ pub(crate) fn check_use(rule: &Rule, span: Range<usize>, level: CheckLevel) -> O
     })
 }
 
-/// Whether a check to this depth can find what a rule of this layer says.
+/// Whether a check at this level can report the rules of this layer.
 fn can_find(layer: Layer, level: CheckLevel) -> bool {
     match layer {
         Layer::Run => level.labs,

@@ -16,7 +16,7 @@ pub const VERIFY_NOTHING: &Rule = &Rule {
     ),
 };
 
-/// A `verify` object with runs alone.
+/// Reports a `verify` object that has only runs.
 pub(crate) fn claims_nothing(span: Range<usize>) -> Finding {
     Finding::new(VERIFY_NOTHING, span, "nothing is compared with these runs")
         .help("add `options`, `value`, `says` or `exact`")

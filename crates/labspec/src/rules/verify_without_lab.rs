@@ -21,7 +21,7 @@ pub const VERIFY_WITHOUT_LAB: &Rule = &Rule {
 pub(super) const CHECK: Check = Check::Lesson(check_lesson);
 
 fn check_lesson(lesson: &Lesson, findings: &mut Vec<Finding>) {
-    let without = |c: &claims::Claim<'_>| {
+    let without = |c: &claims::LessonClaim<'_>| {
         lesson.whole(c.verify).lab.is_none()
             && c.lab.is_none()
             && !c.verify.is_formulas()

@@ -1,9 +1,9 @@
-//! The words and the numbers of a shown text: what two texts have in common, and which number a sentence ends with.
+//! The words and numbers of a rendered text: the common words of two texts, and the last number of a sentence.
 
 use crate::markdown::html::{HtmlToken, tokens};
 use std::ops::Range;
 
-/// A text of HTML without its tags, entities and runs of spaces.
+/// A text of HTML without its tags, entities and repeated spaces.
 pub(super) fn plain(html: &str) -> String {
     let mut out = String::new();
     for token in tokens(html) {
@@ -16,8 +16,8 @@ pub(super) fn plain(html: &str) -> String {
     out.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// What a text says, whatever its capitals, marks and articles. Code and formulas are as they stand: there, every character counts
-/// but an article before them and a full stop behind.
+/// A text without capitals, punctuation and articles. Code and formulas are kept: in them, every character counts, except a
+/// preceding article and a following full stop.
 pub(super) fn visible_text(html: &str) -> String {
     if html.contains("<code") || html.contains('$') || html.contains('`') {
         let text = plain(html);
@@ -31,7 +31,7 @@ pub(super) fn visible_text(html: &str) -> String {
     text.split(' ').filter(|w| !["a", "an", "the"].contains(w)).collect::<Vec<_>>().join(" ")
 }
 
-/// The words of a text without capitals and marks, code and formulas too.
+/// The words of a text without capitals and punctuation, also in code and formulas.
 pub(super) fn normalized_words(html: &str) -> String {
     let lower = plain(html).to_lowercase();
     let without_punctuation: String =
@@ -42,18 +42,18 @@ pub(super) fn normalized_words(html: &str) -> String {
 
 /// A number in a text.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Number {
-    /// Bytes of the text.
+pub(super) struct TextNumber {
+    /// The byte range in the text.
     pub(super) at: Range<usize>,
     pub(super) value: f64,
-    /// Digits behind the point.
+    /// The number of digits after the decimal point.
     pub(super) decimals: usize,
-    /// Digits from the first that is not 0.
+    /// The number of significant digits.
     pub(super) significant: usize,
 }
 
-/// The numbers of a text of HTML; powers of ten, indices and exponents are none.
-pub(super) fn numbers(html: &str) -> Vec<Number> {
+/// The numbers of a text of HTML, without powers of ten, indices and exponents.
+pub(super) fn numbers(html: &str) -> Vec<TextNumber> {
     let texts = tokens(html).into_iter().filter_map(|token| match token {
         HtmlToken::Text(at) => Some(at),
         HtmlToken::Decoded(..) | HtmlToken::Tag(_) => None,
@@ -75,12 +75,12 @@ pub(super) fn numbers(html: &str) -> Vec<Number> {
     all
 }
 
-fn number(html: &str, at: Range<usize>, decimals: usize) -> Option<Number> {
+fn number(html: &str, at: Range<usize>, decimals: usize) -> Option<TextNumber> {
     let (before, after) = (html.get(..at.start)?, html.get(at.end..)?);
     let digits = html.get(at.clone())?;
     let negative = before.ends_with(['-', '−']);
     let outer = before.trim_end_matches(['-', '−']);
-    // An exponent, an index, a part of a name.
+    // An exponent, an index, or a part of a name.
     let part = outer.ends_with(['^', '_', '.', '\\']) || outer.ends_with(|c: char| c.is_alphabetic());
     let inner = outer.ends_with("^{") || outer.ends_with("_{") || outer.ends_with("{,}");
     let joined = after.starts_with(['^', '_', '/', '×', '*', 'e', 'E', ',']) && !after.starts_with(", ");
@@ -94,7 +94,7 @@ fn number(html: &str, at: Range<usize>, decimals: usize) -> Option<Number> {
     let sign = negative && !outer.trim_end().ends_with(|c: char| c.is_alphanumeric() || ")}".contains(c));
     let value: f64 = digits.parse().ok()?;
     let significant = digits.bytes().filter(u8::is_ascii_digit).skip_while(|b| *b == b'0').count();
-    Some(Number { at, value: if sign { -value } else { value }, decimals, significant })
+    Some(TextNumber { at, value: if sign { -value } else { value }, decimals, significant })
 }
 
 #[cfg(test)]
@@ -103,10 +103,13 @@ mod tests {
 
     #[test]
     fn numbers_are_distinguished_from_indices_and_powers() {
-        let of = |text: &str| numbers(text).into_iter().map(|n| n.value).collect::<Vec<_>>();
-        assert_eq!(of("<p>7 + 2 = 9, plus 21: 30. And x_1 = -4.50 m</p>"), [7.0, 2.0, 9.0, 21.0, 30.0, -4.5]);
-        assert_eq!(of("$10^{-11}$ and $2 \\times 9.81 \\times 0.3$ = 5.886 N m"), [0.3, 5.886]);
-        assert_eq!(of("5 − 0.367 = 4.633"), [5.0, 0.367, 4.633]);
+        let values = |text: &str| numbers(text).into_iter().map(|n| n.value).collect::<Vec<_>>();
+        assert_eq!(
+            values("<p>7 + 2 = 9, plus 21: 30. And x_1 = -4.50 m</p>"),
+            [7.0, 2.0, 9.0, 21.0, 30.0, -4.5]
+        );
+        assert_eq!(values("$10^{-11}$ and $2 \\times 9.81 \\times 0.3$ = 5.886 N m"), [0.3, 5.886]);
+        assert_eq!(values("5 − 0.367 = 4.633"), [5.0, 0.367, 4.633]);
     }
 
     #[test]

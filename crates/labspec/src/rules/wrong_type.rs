@@ -16,7 +16,7 @@ pub const WRONG_TYPE: &Rule = &Rule {
     good: Example::Lab(r#"{"model": "ball", "stopAt": 2}"#),
 };
 
-/// The finding for a value of another type than its key takes.
+/// Reports a value whose type differs from the one that its key requires.
 pub(crate) fn describe_type(span: &Range<usize>, mistake: &Mistake) -> Finding {
     let wrong = |message: String| Finding::new(WRONG_TYPE, span.clone(), message);
     match mistake {
@@ -59,7 +59,7 @@ pub(crate) fn describe_type(span: &Range<usize>, mistake: &Mistake) -> Finding {
             .help("write [\"Drop\", 0.5]: the button's label and the time in seconds"),
         Mistake::NoQuote => wrong("an entry of `says` must be a pair [quote, expression]".into())
             .help("write [\"0.442 s\", \"fine.touch\"]"),
-        // `lint/format.rs` lists the mistakes that come here.
+        // `lint/format.rs` lists the mistakes that this function describes.
         _ => {
             debug_assert!(false, "this mistake is of another rule: {mistake:?}");
             wrong("this value has another type than its key takes".into())
@@ -90,7 +90,7 @@ fn unknown_expectation(span: Range<usize>, word: &str) -> Finding {
     one_of(finding, word, ["breaks"].into_iter(), help.to_string())
 }
 
-/// A value of another type. "5" for 5 is the common case, and it has one repair.
+/// Reports a value of another type. "5" for 5 is the common case, and it has one repair.
 fn of_type(span: &Range<usize>, what: &str, expected: Expected, found: &str, text: Option<&str>) -> Finding {
     let right = match expected {
         Expected::Text => "a text in double quotes",
@@ -114,7 +114,7 @@ fn of_type(span: &Range<usize>, what: &str, expected: Expected, found: &str, tex
     }
 }
 
-/// One of several words: the nearest, or else `help`.
+/// Reports a value that is not an allowed word. The help names the nearest word, or is `help`.
 fn one_of(finding: Finding, word: &str, words: impl Iterator<Item = &'static str>, help: String) -> Finding {
     match nearest(word, words) {
         Some(right) => {

@@ -442,11 +442,11 @@ impl<'p> Session<'p> {
         if self.world.data.fields().warning.iter().map(|w| w.number).sum::<usize>() == 0 {
             return;
         }
-        for (stored, now) in self.warnings.iter_mut().zip(&self.world.data.fields().warning) {
-            if now.number > 0 && stored.number == 0 {
-                *stored = *now;
+        for (stored, current) in self.warnings.iter_mut().zip(&self.world.data.fields().warning) {
+            if current.number > 0 && stored.number == 0 {
+                *stored = *current;
             }
-            stored.number = stored.number.max(now.number);
+            stored.number = stored.number.max(current.number);
         }
     }
 }

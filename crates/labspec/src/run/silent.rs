@@ -46,10 +46,10 @@ pub(super) fn growth(model: &Model, g: Growth) -> Breakdown {
             advice.breakdown(rules::ENERGY_GROWS, what, ENERGY_FROM_STEPS)
         }
         Source::Damper(dof) => {
-            let of = joint_of(model, dof, &model.jnt_dofadr, joint::nv);
+            let owner = joint_of(model, dof, &model.jnt_dofadr, joint::nv);
             let damping = model.dof_damping.get(dof).copied().unwrap_or(0.0);
             let what = format!(
-                "the damping of {of} is {}, so it feeds energy in without end: it has added {} J by t = {} s, while the start had {} J",
+                "the damping of {owner} is {}, so it feeds energy in without end: it has added {} J by t = {} s, while the start had {} J",
                 two_digits(damping),
                 two_digits(g.gain),
                 time(g.time),
@@ -63,13 +63,13 @@ pub(super) fn growth(model: &Model, g: Growth) -> Breakdown {
 }
 
 fn past(model: &Model, p: ExceededLimit) -> Breakdown {
-    let of = name(model.names.joint.get(p.joint), "joint", p.joint);
+    let owner = name(model.names.joint.get(p.joint), "joint", p.joint);
     let unit = if model.jnt_type.get(p.joint) == Some(&joint::SLIDE) { "m" } else { "rad" };
     let [beyond, range] = [p.beyond, p.range].map(two_digits);
     let (what, advice) = match p.step {
         Some(step) => (
             format!(
-                "{of} is {beyond} {unit} beyond its limit at t = {} s: one step moves it by {} {unit}, but its range is {range} {unit}",
+                "{owner} is {beyond} {unit} beyond its limit at t = {} s: one step moves it by {} {unit}, but its range is {range} {unit}",
                 time(p.time),
                 two_digits(step)
             ),
@@ -80,7 +80,7 @@ fn past(model: &Model, p: ExceededLimit) -> Breakdown {
         ),
         None => (
             format!(
-                "{of} is pressed {beyond} {unit} beyond its limit from t = {} s on, and its range is {range} {unit}",
+                "{owner} is pressed {beyond} {unit} beyond its limit from t = {} s on, and its range is {range} {unit}",
                 time(p.time)
             ),
             BreakdownAdvice::only(
@@ -156,7 +156,7 @@ fn geom(model: &Model, g: usize) -> String {
     }
     let body = model.geom_bodyid.get(g).map_or(0, |&b| b as usize);
     match model.names.body.get(body).filter(|n| body > 0 && !n.is_empty()) {
-        Some(of) => format!("geom {g} of body \"{of}\""),
+        Some(owner) => format!("geom {g} of body \"{owner}\""),
         None => format!("geom {g}"),
     }
 }

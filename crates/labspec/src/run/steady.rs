@@ -44,9 +44,9 @@ impl SteadyController {
         let writes: Vec<_> = effects.writes.iter().map(one).collect::<Option<_>>()?;
         let alone = effects.calls.is_empty() && effects.ctx_writes.is_empty();
         // An element that it both reads and writes may differ from run to run.
-        let apart = !reads.iter().any(|r| writes.contains(r));
+        let disjoint = !reads.iter().any(|r| writes.contains(r));
         let fits = reads.len() + writes.len() + effects.ctx_reads.len() <= MAX_COMPARED;
-        if looks_further || !alone || !apart || !fits || !reads.iter().all(|(field, _)| stays(*field)) {
+        if looks_further || !alone || !disjoint || !fits || !reads.iter().all(|(field, _)| stays(*field)) {
             return None;
         }
         let elements = reads.into_iter().chain(writes).collect();
@@ -62,21 +62,25 @@ impl SteadyController {
     #[inline]
     pub(super) fn holds(&self, world: &World, context: &Context) -> Option<u64> {
         let work = self.work?;
-        let now = self.now(world, context);
-        self.last_values.iter().copied().map(Some).eq(now).then_some(work)
+        let current_values = self.current_values(world, context);
+        self.last_values.iter().copied().map(Some).eq(current_values).then_some(work)
     }
 
     /// Stores the values after a run with this work. With `None`, the controller runs again in the next step.
     pub(super) fn keep(&mut self, world: &World, context: &Context, work: Option<u64>) {
         let mut numbers = std::mem::take(&mut self.last_values);
         numbers.clear();
-        numbers.extend(self.now(world, context).map_while(|number| number));
-        self.work = work.filter(|_| self.now(world, context).all(|number| number.is_some()));
+        numbers.extend(self.current_values(world, context).map_while(|number| number));
+        self.work = work.filter(|_| self.current_values(world, context).all(|number| number.is_some()));
         self.last_values = numbers;
     }
 
     /// The bits of all compared values; `None` for values that are not numbers.
-    fn now<'a>(&'a self, world: &'a World, context: &'a Context) -> impl Iterator<Item = Option<u64>> + 'a {
+    fn current_values<'a>(
+        &'a self,
+        world: &'a World,
+        context: &'a Context,
+    ) -> impl Iterator<Item = Option<u64>> + 'a {
         let elements = self.elements.iter().map(|(field, i)| world.get(*field, *i).map(f64::to_bits));
         elements.chain(self.slots.iter().flat_map(|slot| bits(context.get(*slot))))
     }

@@ -11,7 +11,7 @@ use crate::printable::printable_path;
 use labspec_finding::Lines;
 pub use labspec_finding::{EditorPosition, Position};
 pub use map::{Piece, SourceMap};
-pub use sources::Asked;
+pub use sources::PathQuery;
 pub use sources::{Overlay, Sources};
 use std::ops::Range;
 use std::path::Path;

@@ -30,12 +30,12 @@ impl Default for Sources {
 pub struct Overlay {
     open: Mutex<BTreeMap<PathBuf, String>>,
     read: Mutex<BTreeMap<PathBuf, Result<String, String>>>,
-    places: Mutex<BTreeMap<(Asked, PathBuf), Option<PathBuf>>>,
+    places: Mutex<BTreeMap<(PathQuery, PathBuf), Option<PathBuf>>>,
 }
 
 /// A query about a path on the disk.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Asked {
+pub enum PathQuery {
     /// The file or folder itself, with symbolic links resolved.
     Real,
     /// The folder of models of a lesson.
@@ -76,7 +76,8 @@ impl Overlay {
     }
 
     fn text(&self, path: &Path, most: u64, what: &str) -> Result<String, String> {
-        let real = self.place(Asked::Real, path, || self.real(path)).unwrap_or_else(|| path.to_path_buf());
+        let real =
+            self.place(PathQuery::Real, path, || self.real(path)).unwrap_or_else(|| path.to_path_buf());
         if let Some(text) = self.text_in_memory(&real) {
             return Ok(text);
         }
@@ -96,7 +97,12 @@ impl Overlay {
         })
     }
 
-    fn place(&self, asked: Asked, path: &Path, find: impl FnOnce() -> Option<PathBuf>) -> Option<PathBuf> {
+    fn place(
+        &self,
+        asked: PathQuery,
+        path: &Path,
+        find: impl FnOnce() -> Option<PathBuf>,
+    ) -> Option<PathBuf> {
         let key = (asked, path.to_path_buf());
         let cached = locked(&self.places).get(&key).cloned();
         cached.unwrap_or_else(|| {
@@ -170,7 +176,7 @@ impl Sources {
         match self {
             Sources::Given(texts) => texts.contains_key(&plain(path)).then(|| plain(path)),
             Sources::Disk => path.canonicalize().ok(),
-            Sources::Over(overlay) => overlay.place(Asked::Real, path, || overlay.real(path)),
+            Sources::Over(overlay) => overlay.place(PathQuery::Real, path, || overlay.real(path)),
         }
     }
 
@@ -187,7 +193,7 @@ impl Sources {
     /// The result of `find` for a path, which is cached in an editor.
     pub fn place(
         &self,
-        asked: Asked,
+        asked: PathQuery,
         path: &Path,
         find: impl FnOnce() -> Option<PathBuf>,
     ) -> Option<PathBuf> {

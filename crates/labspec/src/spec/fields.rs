@@ -65,7 +65,7 @@ impl<'n, 'f> Fields<'n, 'f> {
             if self.key(key).is_some() || self.meant.len() >= 20 {
                 continue;
             }
-            let fitting = self.keys.iter().filter(|k| fits(&k.of, &member.value.json)).map(|k| k.name);
+            let fitting = self.keys.iter().filter(|k| fits(&k.ty, &member.value.json)).map(|k| k.name);
             if let Some(right) = nearest(key, fitting)
                 && !self.has(right)
             {
@@ -118,18 +118,18 @@ impl<'n, 'f> Fields<'n, 'f> {
             return;
         }
         let open = self.span.start..self.span.end.min(self.span.start + 1);
-        let mistake = Mistake::MissingKey { of: self.what, key, why, advised };
+        let mistake = Mistake::MissingKey { object: self.what, key, why, advised };
         self.missing.push((key, mistake.at(open)));
     }
 
     /// Whether the value of a key is a list.
     pub(super) fn takes_list(&self, key: &str) -> bool {
-        matches!(self.key(key).map(|k| k.of), Some(Type::List(_)))
+        matches!(self.key(key).map(|k| k.ty), Some(Type::List(_)))
     }
 
     /// Whether the value of a key is a boolean.
     pub(super) fn takes_flag(&self, key: &str) -> bool {
-        matches!(self.key(key).map(|k| k.of), Some(Type::Flag))
+        matches!(self.key(key).map(|k| k.ty), Some(Type::Flag))
     }
 
     /// Reads a text.
@@ -211,7 +211,7 @@ impl<'n, 'f> Fields<'n, 'f> {
             let there =
                 |right: &str| self.members.iter().any(|m| m.key.value == right) || misspelt.contains(&right);
             let fitting =
-                || nearest(key, candidates().filter(|k| fits(&k.of, &member.value.json)).map(|k| k.name));
+                || nearest(key, candidates().filter(|k| fits(&k.ty, &member.value.json)).map(|k| k.name));
             let near = meant.map(|(right, _)| *right).or_else(fitting);
             let meant = match near.or_else(|| nearest(key, candidates().map(|k| k.name))) {
                 Some(right) if there(right) => Meant::There(right),
@@ -220,14 +220,14 @@ impl<'n, 'f> Fields<'n, 'f> {
                     match near {
                         Some(_) => Meant::Likely(right),
                         None => {
-                            let takes = self.key(right).map_or(A_SINGLE_VALUE, |k| takes(&k.of));
+                            let takes = self.key(right).map_or(A_SINGLE_VALUE, |k| takes(&k.ty));
                             Meant::Other { key: right, takes }
                         }
                     }
                 }
                 None => Meant::Unclear(self.keys.iter().map(|k| k.name).collect()),
             };
-            let mistake = Mistake::UnknownKey { of: self.what, key: key.to_string(), meant };
+            let mistake = Mistake::UnknownKey { object: self.what, key: key.to_string(), meant };
             self.problems.push(mistake.at(member.key.span()));
             reported += 1;
         }
@@ -237,13 +237,13 @@ impl<'n, 'f> Fields<'n, 'f> {
 }
 
 /// Whether a value has the JSON type (list, object or single value) that a key of this type expects.
-pub(super) fn fits(of: &Type, value: &Json) -> bool {
-    match (of, value) {
+pub(super) fn fits(ty: &Type, value: &Json) -> bool {
+    match (ty, value) {
         (_, Json::Broken) => true,
         (Type::Either(a, b), _) => fits(a, value) || fits(b, value),
-        (_, Json::Array(_)) => takes(of) == A_LIST,
-        (_, Json::Object(_)) => takes(of) == AN_OBJECT,
-        _ => takes(of) == A_SINGLE_VALUE,
+        (_, Json::Array(_)) => takes(ty) == A_LIST,
+        (_, Json::Object(_)) => takes(ty) == AN_OBJECT,
+        _ => takes(ty) == A_SINGLE_VALUE,
     }
 }
 
@@ -252,8 +252,8 @@ const AN_OBJECT: &str = "an object { … }";
 const A_SINGLE_VALUE: &str = "a single value";
 
 /// The expected JSON type, for messages.
-fn takes(of: &Type) -> &'static str {
-    match of {
+fn takes(ty: &Type) -> &'static str {
+    match ty {
         Type::List(_) | Type::Numbers(_) | Type::Pair(_) => A_LIST,
         Type::Map(_) | Type::Switches(_) | Type::Object(_) | Type::OneOf(_) => AN_OBJECT,
         Type::Either(first, _) => takes(first),

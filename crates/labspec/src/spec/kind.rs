@@ -67,7 +67,7 @@ fn nearly(node: &Node, object: &Object, telling: &[&'static str]) -> bool {
             ours += 1;
         } else if !OTHER_WORDS.contains(&key.to_ascii_lowercase().as_str())
             && let Some(meant) = nearest(key, telling.iter().copied())
-            && (object.key(meant).is_some_and(|k| fits(&k.of, &member.value.json))
+            && (object.key(meant).is_some_and(|k| fits(&k.ty, &member.value.json))
                 || matches!(member.value.json, Json::Object(_)))
         {
             ours += 1;

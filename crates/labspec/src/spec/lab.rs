@@ -205,27 +205,27 @@ impl Lab {
     }
 
     /// All texts that are code, each with its form, in the order of the lab format.
-    pub fn code(&self) -> Vec<(Form, &Text)> {
+    pub fn code(&self) -> Vec<(CodeForm, &Text)> {
         let statements = [&self.setup, &self.controller].into_iter().flatten();
-        let mut all: Vec<(Form, &Text)> = statements.map(|t| (Form::Statements, t)).collect();
+        let mut all: Vec<(CodeForm, &Text)> = statements.map(|t| (CodeForm::Statements, t)).collect();
         for control in &self.controls {
             if let super::ControlKind::Button { run } = &control.kind {
-                all.push((Form::Statements, run));
+                all.push((CodeForm::Statements, run));
             }
             if let Some(action) = control.action() {
-                all.extend(action.set.iter().map(|t| (Form::Target, t)));
-                all.extend(action.apply.iter().map(|t| (Form::Statements, t)));
+                all.extend(action.set.iter().map(|t| (CodeForm::Target, t)));
+                all.extend(action.apply.iter().map(|t| (CodeForm::Statements, t)));
             }
         }
         let exprs = self.traces().map(|t| &t.expr).chain(self.readouts.iter().map(|r| &r.expr));
-        all.extend(exprs.map(|t| (Form::Expression, t)));
+        all.extend(exprs.map(|t| (CodeForm::Expression, t)));
         all
     }
 }
 
 /// The form of a code text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Form {
+pub enum CodeForm {
     /// A value: a trace, a readout, a measure.
     Expression,
     /// Statements: the setup, the controller, the `apply` of a control, the `run` of a button.

@@ -33,7 +33,7 @@ pub use claim::{Change, Column, Exact, Find, MOST_SWEPT, Said, Stands, Sweep};
 pub use comment::Remark;
 pub use control::{Action, Choice, Control, ControlKind};
 pub use kind::{FileKind, kind_of};
-pub use lab::{Camera, Expect, Form, Lab, ModelSource, Run, Verify, VerifyLab};
+pub use lab::{Camera, CodeForm, Expect, Lab, ModelSource, Run, Verify, VerifyLab};
 pub use lesson::{LabEntry, Lesson, Other, Widget};
 pub use plot::{Plot, Readout, RefLine, Trace};
 pub use problem::{Expected, Meant, Misfit, Mistake, Problem};

@@ -49,7 +49,7 @@ pub enum Mistake {
     /// A key that is not in the format.
     UnknownKey {
         /// The object: `a slider`.
-        of: &'static str,
+        object: &'static str,
         /// The key.
         key: String,
         /// The key that is probably meant.
@@ -58,7 +58,7 @@ pub enum Mistake {
     /// A missing key.
     MissingKey {
         /// The object.
-        of: &'static str,
+        object: &'static str,
         /// The key.
         key: &'static str,
         /// The reason that it is needed.

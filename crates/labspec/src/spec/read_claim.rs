@@ -198,9 +198,9 @@ pub(super) fn read_column(node: &Node, problems: &mut Vec<Problem>) -> Option<Co
         let mistake = Mistake::NoRows.at(f.span());
         f.problems.push(mistake);
     }
-    let apart = by.is_some() != row.is_some();
+    let exclusive = by.is_some() != row.is_some();
     fields.finish();
-    Some(Column { column: column?, by, row, is: is? }).filter(|_| apart)
+    Some(Column { column: column?, by, row, is: is? }).filter(|_| exclusive)
 }
 
 pub(super) fn read_measures(fields: &mut Fields<'_, '_>, key: &'static str) -> Vec<(Text, Text)> {

@@ -25,7 +25,7 @@ impl Lesson {
 
     /// The chain of objects that a `verify` object uses.
     pub fn used_by<'a>(&'a self, verify: &'a Verify) -> impl Iterator<Item = &'a Verify> {
-        let next = |of: &&'a Verify| self.verify_at(&of.uses.as_ref()?.1);
+        let next = |verify: &&'a Verify| self.verify_at(&verify.uses.as_ref()?.1);
         std::iter::successors(next(&verify), next).take(LONGEST)
     }
 

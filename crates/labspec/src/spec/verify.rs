@@ -2,7 +2,7 @@
 //! ([`lab`](super::lab)), because each can contain the other.
 
 use super::claim::Column;
-use super::lab::{Form, Run, Verify, VerifyLab};
+use super::lab::{CodeForm, Run, Verify, VerifyLab};
 use crate::source::{SourceMap, Text};
 use std::ops::Range;
 
@@ -55,7 +55,7 @@ impl Verify {
     }
 
     /// All texts that are code, each with its form.
-    pub fn code(&self) -> Vec<(Form, &Text)> {
+    pub fn code(&self) -> Vec<(CodeForm, &Text)> {
         self.runs.iter().flat_map(Run::code).chain(self.expressions()).collect()
     }
 
@@ -65,11 +65,11 @@ impl Verify {
     }
 
     /// The measures and the claims about them: all texts that are code, except those of the runs.
-    pub fn expressions(&self) -> impl Iterator<Item = (Form, &Text)> {
+    pub fn expressions(&self) -> impl Iterator<Item = (CodeForm, &Text)> {
         let measures = self.measure.iter().map(|(_, expr)| expr).chain(self.exact.iter().map(|e| &e.form));
         let measures = measures.chain(self.find.iter().map(|f| &f.holds));
         let values = self.options.iter().chain(&self.value).chain(&self.wrong).chain(self.quoted());
-        measures.chain(values).map(|t| (Form::Expression, t))
+        measures.chain(values).map(|t| (CodeForm::Expression, t))
     }
 }
 
@@ -94,8 +94,8 @@ impl Run {
     }
 
     /// All texts that are code, each with its form.
-    pub fn code(&self) -> impl Iterator<Item = (Form, &Text)> {
-        let statements = self.setup.iter().chain(&self.controller).map(|t| (Form::Statements, t));
-        statements.chain(self.stop.iter().map(|t| (Form::Expression, t)))
+    pub fn code(&self) -> impl Iterator<Item = (CodeForm, &Text)> {
+        let statements = self.setup.iter().chain(&self.controller).map(|t| (CodeForm::Statements, t));
+        statements.chain(self.stop.iter().map(|t| (CodeForm::Expression, t)))
     }
 }

@@ -2,7 +2,7 @@
 
 use super::bodies;
 use super::fault::{Fault, FaultKind};
-use super::interaction::{Action, Interaction, Kind, PUSH_SPEED};
+use super::interaction::{Action, Interaction, InteractionKind, PUSH_SPEED};
 use super::run_faults::{DIVERGED, earliest_observed_fault, reported_faults, warned};
 use super::watch::{MOST_PAIRS, RunMonitor};
 use crate::bind::{Bound, Programs};
@@ -61,9 +61,9 @@ pub(crate) struct RunWatcher<'h> {
 impl RunWatcher<'_> {
     /// Executes the actions that are due; returns whether there were any.
     fn act(&mut self, session: &mut Session<'_>) -> bool {
-        let now = session.world.data.time();
+        let current = session.world.data.time();
         let mut acted = false;
-        while let Some(action) = self.pending.front().filter(|a| now >= a.time - 1e-12).copied() {
+        while let Some(action) = self.pending.front().filter(|a| current >= a.time - 1e-12).copied() {
             match &action.value {
                 Some(value) => session.set_control(action.control, value.clone()),
                 None => session.press(action.control),
@@ -179,7 +179,7 @@ impl<'a> StressCase<'a> {
                 None => session.press(action.control),
             }
         }
-        if interaction.kind == Kind::Touched {
+        if interaction.kind == InteractionKind::Touched {
             session.world.data.edit().qvel.iter_mut().for_each(|v| *v += PUSH_SPEED);
             session.refresh();
         }

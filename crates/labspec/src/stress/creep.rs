@@ -2,7 +2,7 @@
 //! moves them, and joints that move on although their friction loss exceeds the load.
 
 use super::bodies::{body_name, body_of, joint_of_dof};
-use super::fault::{Evidence, Fault, FaultKind};
+use super::fault::{Fault, FaultEvidence, FaultKind};
 use super::history::RunHistory;
 use labspec_core::math::{Vec3, norm, rows, sub};
 use labspec_core::{Fields, Model, disable, geom_half_extents, joint};
@@ -182,9 +182,9 @@ fn creep(subject: String, since: f64, travel: f64, time: f64, unit: &'static str
         subject,
         cause: "friction is soft: what it holds creeps, slowly and forever".into(),
         evidence: vec![
-            Evidence { name: "speed", value: travel / time, unit: speed },
-            Evidence { name: "way", value: travel, unit },
-            Evidence { name: "for", value: time, unit: "s" },
+            FaultEvidence { name: "speed", value: travel / time, unit: speed },
+            FaultEvidence { name: "way", value: travel, unit },
+            FaultEvidence { name: "for", value: time, unit: "s" },
         ],
         size: travel / time,
         by_run: false,

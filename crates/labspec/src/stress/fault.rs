@@ -73,7 +73,7 @@ impl FaultKind {
 
 /// A measured value.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Evidence {
+pub struct FaultEvidence {
     /// The quantity.
     pub name: &'static str,
     /// The value.
@@ -94,7 +94,7 @@ pub struct Fault {
     /// The cause, as far as it is known.
     pub cause: String,
     /// The numbers that show it.
-    pub evidence: Vec<Evidence>,
+    pub evidence: Vec<FaultEvidence>,
     /// The severity, to compare it with other faults of its kind.
     pub size: f64,
     /// Whether the run itself reports it.
@@ -125,7 +125,7 @@ impl Fault {
 
     /// The measured values in a line: `depth 0.02 m, share 1.3`.
     pub fn measured(&self) -> String {
-        let one = |e: &Evidence| {
+        let one = |e: &FaultEvidence| {
             let unit = if e.unit.is_empty() { String::new() } else { format!(" {}", e.unit) };
             format!("{} {}{unit}", e.name, two_digits(e.value))
         };

@@ -2,7 +2,7 @@
 //! thickness of the body.
 
 use super::bodies::{body_of, centre_in_frame, geom_name, may_meet};
-use super::fault::{Evidence, Fault, FaultKind};
+use super::fault::{Fault, FaultEvidence, FaultKind};
 use labspec_core::math::{Vec3, norm, rows, sub};
 use labspec_core::{Fields, Model, geom, geom_thickness};
 
@@ -18,8 +18,9 @@ pub(super) struct HeightFieldPair {
 pub(super) fn over(m: &Model, most: usize) -> Vec<HeightFieldPair> {
     let moves = |g: &usize| m.body_treeid.get(body_of(m, *g)).is_some_and(|&t| t >= 0);
     let fields: Vec<usize> = (0..m.ngeom).filter(|&p| m.geom_type.get(p) == Some(&geom::HFIELD)).collect();
-    let of = |&p: &usize| (0..m.ngeom).filter(moves).filter(move |&g| may_meet(m, g, p)).map(move |g| [g, p]);
-    let pairs = fields.iter().flat_map(of).filter(|[g, _]| geom_thickness(m, *g).is_finite());
+    let pairs_of_field =
+        |&p: &usize| (0..m.ngeom).filter(moves).filter(move |&g| may_meet(m, g, p)).map(move |g| [g, p]);
+    let pairs = fields.iter().flat_map(pairs_of_field).filter(|[g, _]| geom_thickness(m, *g).is_finite());
     pairs.take(most).map(|geoms| HeightFieldPair { geoms, above: None, done: false }).collect()
 }
 
@@ -87,9 +88,9 @@ fn fall_fault(m: &Model, d: &Fields, [g, p]: [usize; 2], travel: f64, depth: f64
         subject: format!("{} through {}", geom_name(m, g), geom_name(m, p)),
         cause: cause.into(),
         evidence: vec![
-            Evidence { name: "depth below the surface", value: depth, unit: "m" },
-            Evidence { name: "way since it was above it", value: travel, unit: "m" },
-            Evidence { name: "own thickness", value: thick, unit: "m" },
+            FaultEvidence { name: "depth below the surface", value: depth, unit: "m" },
+            FaultEvidence { name: "way since it was above it", value: travel, unit: "m" },
+            FaultEvidence { name: "own thickness", value: thick, unit: "m" },
         ],
         size: depth / thick,
         by_run: false,

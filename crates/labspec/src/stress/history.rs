@@ -15,10 +15,10 @@ impl<T> RunHistory<T> {
         RunHistory { calls: 0, every, most, samples: Vec::new() }
     }
 
-    /// Counts a call; `now` creates a sample when one is due.
-    pub(super) fn observe(&mut self, now: impl FnOnce() -> T) {
+    /// Counts a call; `current` creates a sample when one is due.
+    pub(super) fn observe(&mut self, current: impl FnOnce() -> T) {
         if self.calls.is_multiple_of(self.every) {
-            self.samples.push(now());
+            self.samples.push(current());
             if self.samples.len() >= self.most {
                 let mut odd = false;
                 self.samples.retain(|_| {

@@ -20,7 +20,7 @@ pub struct Action {
 
 /// The kind of an interaction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Kind {
+pub enum InteractionKind {
     /// No interaction.
     AsItStands,
     /// A push too small to be seen, which shows instability that a scene in exact equilibrium hides.
@@ -37,28 +37,28 @@ pub enum Kind {
     Interleaved,
 }
 
-impl Kind {
+impl InteractionKind {
     /// All kinds, in the order in which they are tested.
-    pub const ALL: [Kind; 7] = [
-        Kind::AsItStands,
-        Kind::Touched,
-        Kind::End,
-        Kind::Button,
-        Kind::InOrder,
-        Kind::Corner,
-        Kind::Interleaved,
+    pub const ALL: [InteractionKind; 7] = [
+        InteractionKind::AsItStands,
+        InteractionKind::Touched,
+        InteractionKind::End,
+        InteractionKind::Button,
+        InteractionKind::InOrder,
+        InteractionKind::Corner,
+        InteractionKind::Interleaved,
     ];
 
     /// The kind in words.
     pub fn description(self) -> &'static str {
         match self {
-            Kind::AsItStands => "as it stands",
-            Kind::Touched => "with a touch",
-            Kind::End => "each control at its ends",
-            Kind::Button => "each button",
-            Kind::InOrder => "buttons in order",
-            Kind::Corner => "corners",
-            Kind::Interleaved => "all in turn while it runs",
+            InteractionKind::AsItStands => "as it stands",
+            InteractionKind::Touched => "with a touch",
+            InteractionKind::End => "each control at its ends",
+            InteractionKind::Button => "each button",
+            InteractionKind::InOrder => "buttons in order",
+            InteractionKind::Corner => "corners",
+            InteractionKind::Interleaved => "all in turn while it runs",
         }
     }
 }
@@ -67,7 +67,7 @@ impl Kind {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Interaction {
     /// Its kind.
-    pub kind: Kind,
+    pub kind: InteractionKind,
     /// The actions, in order of time.
     pub actions: Vec<Action>,
 }
@@ -91,11 +91,11 @@ impl Interaction {
         }
         let pressed = presses(programs, press)?.into_iter();
         actions.extend(pressed.map(|(control, time)| Action { time, control, value: None }));
-        Ok(Interaction { kind: Kind::AsItStands, actions })
+        Ok(Interaction { kind: InteractionKind::AsItStands, actions })
     }
 
     /// Adds actions to this base. Controls that they set before the first step replace those of the base.
-    pub fn and(&self, kind: Kind, more: Vec<Action>) -> Interaction {
+    pub fn and(&self, kind: InteractionKind, more: Vec<Action>) -> Interaction {
         let sets = |a: &Action| a.time <= 0.0 && a.value.is_some();
         let again = |a: &&Action| !(sets(a) && more.iter().any(|b| sets(b) && b.control == a.control));
         let mut actions: Vec<Action> = self.actions.iter().filter(again).cloned().collect();
@@ -120,7 +120,7 @@ impl Interaction {
             list => format!("with {}", list.iter().map(one).collect::<Vec<_>>().join(", ")),
         };
         match self.kind {
-            Kind::Touched => {
+            InteractionKind::Touched => {
                 format!("{done}, after a touch (every joint begins with a speed of {PUSH_SPEED:e})")
             }
             _ => done,
@@ -210,20 +210,22 @@ pub fn list_interactions(lab: &Lab, window: f64, base: &Interaction) -> (Vec<Int
     let press = FIRST_PRESS.min(0.5 * window);
     let controls = ListedControls::new(lab, base);
     let ListedControls { changes, buttons } = &controls;
-    let mut all = vec![base.clone(), base.and(Kind::Touched, Vec::new())];
+    let mut all = vec![base.clone(), base.and(InteractionKind::Touched, Vec::new())];
     for (i, values, start) in changes {
         let moved = values.iter().filter(|v| *v != start);
-        all.extend(moved.map(|v| base.and(Kind::End, vec![set(*i, v)])));
+        all.extend(moved.map(|v| base.and(InteractionKind::End, vec![set(*i, v)])));
     }
-    all.extend(buttons.iter().map(|b| base.and(Kind::Button, vec![press_at(*b, press)])));
-    let spread = |k: usize, of: usize| press + (window - press).max(0.0) * k as f64 / of.max(1) as f64;
+    all.extend(buttons.iter().map(|b| base.and(InteractionKind::Button, vec![press_at(*b, press)])));
+    let spread = |k: usize, count: usize| press + (window - press).max(0.0) * k as f64 / count.max(1) as f64;
     if buttons.len() > 1 {
         let actions = buttons.iter().enumerate().map(|(k, b)| press_at(*b, spread(k, buttons.len())));
-        all.push(base.and(Kind::InOrder, actions.collect()));
+        all.push(base.and(InteractionKind::InOrder, actions.collect()));
     }
     let (corners, missing) = corners(&controls, press);
-    all.extend(corners.into_iter().map(|actions| base.and(Kind::Corner, actions)));
-    all.extend(interleaved(changes, buttons, spread).map(|more| base.and(Kind::Interleaved, more)));
+    all.extend(corners.into_iter().map(|actions| base.and(InteractionKind::Corner, actions)));
+    all.extend(
+        interleaved(changes, buttons, spread).map(|more| base.and(InteractionKind::Interleaved, more)),
+    );
     (all, missing)
 }
 
@@ -278,9 +280,9 @@ fn interleaved(
     // A select without options has no value.
     let is_button = |i: &usize| buttons.contains(i);
     list.retain(|(i, value)| is_button(i) || value.is_some());
-    let of = list.len();
+    let count = list.len();
     let timed = list.into_iter().enumerate();
-    Some(timed.map(|(k, (control, value))| Action { time: spread(k, of), control, value }).collect())
+    Some(timed.map(|(k, (control, value))| Action { time: spread(k, count), control, value }).collect())
 }
 
 #[cfg(test)]
@@ -296,7 +298,7 @@ mod tests {
     }
 
     fn nothing() -> Interaction {
-        Interaction { kind: Kind::AsItStands, actions: Vec::new() }
+        Interaction { kind: InteractionKind::AsItStands, actions: Vec::new() }
     }
 
     const SLIDER: &str = r#"{"label": "m", "param": "m", "min": 0, "max": 5, "value": 5}"#;
@@ -305,7 +307,7 @@ mod tests {
 
     fn counts(lab: &Lab) -> [usize; 7] {
         let (all, _) = list_interactions(lab, 2.0, &nothing());
-        Kind::ALL.map(|kind| all.iter().filter(|h| h.kind == kind).count())
+        InteractionKind::ALL.map(|kind| all.iter().filter(|h| h.kind == kind).count())
     }
 
     #[test]
@@ -323,7 +325,7 @@ mod tests {
     fn many_controls_are_combined_in_pairs() {
         let sliders: Vec<String> = (0..12).map(|k| SLIDER.replace("\"m\"", &format!("\"m{k}\""))).collect();
         let (all, missing) = list_interactions(&lab(&sliders.join(",")), 2.0, &nothing());
-        let corners: Vec<&Interaction> = all.iter().filter(|h| h.kind == Kind::Corner).collect();
+        let corners: Vec<&Interaction> = all.iter().filter(|h| h.kind == InteractionKind::Corner).collect();
         assert!(missing == 0 && corners.len() < 20, "{}", corners.len());
         for i in 0..12 {
             for j in 0..i {
@@ -347,16 +349,18 @@ mod tests {
     fn the_base_settings_come_first() {
         let set = |control, x| Action { time: 0.0, control, value: Some(Value::Number(x)) };
         let press = |control, time| Action { time, control, value: None };
-        let base =
-            Interaction { kind: Kind::AsItStands, actions: vec![set(0, 2.0), press(2, 0.0), press(2, 0.5)] };
+        let base = Interaction {
+            kind: InteractionKind::AsItStands,
+            actions: vec![set(0, 2.0), press(2, 0.0), press(2, 0.5)],
+        };
         let (all, _) = list_interactions(&lab(&[SLIDER, SELECT, BUTTON].join(",")), 2.0, &base);
-        assert_eq!((&all[0], all[1].kind, &all[1].actions), (&base, Kind::Touched, &base.actions));
+        assert_eq!((&all[0], all[1].kind, &all[1].actions), (&base, InteractionKind::Touched, &base.actions));
         // Both ends of the slider differ from its value in the base.
-        let ends: Vec<&Interaction> = all.iter().filter(|h| h.kind == Kind::End).collect();
+        let ends: Vec<&Interaction> = all.iter().filter(|h| h.kind == InteractionKind::End).collect();
         assert_eq!(ends.len(), 4);
         assert_eq!(ends[0].actions, [set(0, 0.0), press(2, 0.0), press(2, 0.5)]);
         assert_eq!(ends[2].actions, [set(0, 2.0), set(1, 0.0), press(2, 0.0), press(2, 0.5)]);
-        let button = all.iter().find(|h| h.kind == Kind::Button).unwrap();
+        let button = all.iter().find(|h| h.kind == InteractionKind::Button).unwrap();
         assert_eq!(button.actions, [set(0, 2.0), press(2, 0.0), press(2, 0.1), press(2, 0.5)]);
     }
 }

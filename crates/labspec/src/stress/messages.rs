@@ -3,7 +3,7 @@
 use super::case::{RunOutcome, StressCase};
 use super::drift::without_pushed_bodies;
 use super::fault::{Fault, FaultKind, worst_fault};
-use super::interaction::{Action, Interaction, Kind};
+use super::interaction::{Action, Interaction, InteractionKind};
 use crate::bind::Programs;
 use crate::rules::{self, Rule};
 use crate::run::{self, Breakdown, Play, RunError, RunOptions, Session, ShorterTimestep, StartedRun, Table};
@@ -126,7 +126,7 @@ pub fn watched_run(
     let mut started = run::begin(lab, model, programs, options, &case.access)?;
     let presses: Vec<Action> =
         started.presses.iter().map(|&(control, time)| Action { time, control, value: None }).collect();
-    let pressed = Interaction { kind: Kind::AsItStands, actions: presses };
+    let pressed = Interaction { kind: InteractionKind::AsItStands, actions: presses };
     let StartedRun { session, samples, steps, every, .. } = &mut started;
     let (steps, every) = (*steps, *every);
     let mut watcher = case.table_watcher(&pressed, session);

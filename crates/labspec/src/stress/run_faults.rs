@@ -3,7 +3,7 @@
 
 use super::bodies::{geom_name, joint_of_dof, joint_of_place};
 use super::causes::{stiffness_cause, unknown_cause};
-use super::fault::{Evidence, Fault, FaultKind};
+use super::fault::{Fault, FaultEvidence, FaultKind};
 use crate::monitors::watch::Observations;
 use crate::run::Session;
 use labspec_core::{Model, Warning, WarningStat, joint};
@@ -40,14 +40,14 @@ fn breakdown(session: &Session<'_>) -> Option<Fault> {
     let growth = session.growth();
     let first = DIVERGED.into_iter().filter_map(|w| Some((w, warned(session, w)?)));
     let first = first.min_by(|a, b| a.1.first_time.total_cmp(&b.1.first_time));
-    let step = Evidence { name: "timestep", value: m.opt.timestep, unit: "s" };
+    let step = FaultEvidence { name: "timestep", value: m.opt.timestep, unit: "s" };
     let cause = || stiffness_cause(m).unwrap_or_else(|| unknown_cause(m));
     if let Some(g) = growth.filter(|g| first.is_none_or(|(_, stat)| g.time < stat.first_time)) {
         let diverged =
-            first.map(|(_, stat)| Evidence { name: "no number at", value: stat.first_time, unit: "s" });
+            first.map(|(_, stat)| FaultEvidence { name: "no number at", value: stat.first_time, unit: "s" });
         let mut evidence = vec![
-            Evidence { name: "energy gained", value: g.gain, unit: "J" },
-            Evidence { name: "energy at the start", value: g.available_energy, unit: "J" },
+            FaultEvidence { name: "energy gained", value: g.gain, unit: "J" },
+            FaultEvidence { name: "energy at the start", value: g.available_energy, unit: "J" },
             step,
         ];
         evidence.extend(diverged);
@@ -66,7 +66,7 @@ fn breakdown(session: &Session<'_>) -> Option<Fault> {
         Warning::BadQpos => joint_of_place(m, stat.lastinfo),
         _ => joint_of_dof(m, stat.lastinfo),
     };
-    let evidence = vec![step, Evidence { name: "larger than", value: 1e10, unit: "" }];
+    let evidence = vec![step, FaultEvidence { name: "larger than", value: 1e10, unit: "" }];
     Some(Fault {
         kind: FaultKind::Diverges,
         time: stat.first_time,
@@ -98,7 +98,7 @@ fn other_warnings(session: &Session<'_>, m: &Model) -> Vec<Fault> {
             time: stat.first_time,
             subject,
             cause: cause.into(),
-            evidence: vec![Evidence { name: "warnings", value: stat.number as f64, unit: "" }],
+            evidence: vec![FaultEvidence { name: "warnings", value: stat.number as f64, unit: "" }],
             size: 1.0,
             by_run: true,
         });
@@ -117,7 +117,7 @@ pub(super) fn earliest_observed_fault(m: &Model, noticed: &Observations) -> Opti
         size,
         by_run: true,
     };
-    let number = |name, value, unit| Evidence { name, value, unit };
+    let number = |name, value, unit| FaultEvidence { name, value, unit };
     let both = |geoms: [usize; 2]| geoms.map(|g| geom_name(m, g));
     let past = noticed.past.map(|p| {
         let unit = if m.jnt_type.get(p.joint) == Some(&joint::SLIDE) { "m" } else { "rad" };

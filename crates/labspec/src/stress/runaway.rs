@@ -8,7 +8,7 @@
 
 use super::bodies::joint_of_dof;
 use super::causes::stiffness_cause;
-use super::fault::{Evidence, Fault, FaultKind};
+use super::fault::{Fault, FaultEvidence, FaultKind};
 use super::history::RunHistory;
 use labspec_core::math::norm;
 use labspec_core::{Fields, Model, joint};
@@ -65,11 +65,11 @@ impl RunawayMonitor {
     }
 
     pub(super) fn observe(&mut self, m: &Model, d: &Fields) {
-        let mut now = [(0.0f64, 0usize); 2];
+        let mut current = [(0.0f64, 0usize); 2];
         let mut compare = |dof: usize, kind: usize| {
             let speed = d.qvel.get(dof).map_or(0.0, |v| v.abs());
-            if speed > now[kind].0 {
-                now[kind] = (speed, dof);
+            if speed > current[kind].0 {
+                current[kind] = (speed, dof);
             }
         };
         for (&joint, &first) in m.jnt_type.iter().zip(&m.jnt_dofadr) {
@@ -81,9 +81,9 @@ impl RunawayMonitor {
                 _ => (0..3).for_each(|i| compare(first + i, 1)),
             }
         }
-        let first = *self.first.get_or_insert([now[0].0, now[1].0]);
+        let first = *self.first.get_or_insert([current[0].0, current[1].0]);
         for k in 0..2 {
-            self.largest[k] = self.largest[k].max(now[k].0);
+            self.largest[k] = self.largest[k].max(current[k].0);
         }
         self.memory.observe(|| (d.time, self.largest));
         if let Some((_, dof, speed, _)) = &mut self.found {
@@ -91,7 +91,7 @@ impl RunawayMonitor {
             return;
         }
         for k in 0..2 {
-            let (speed, dof) = now[k];
+            let (speed, dof) = current[k];
             let bound = FAR_FACTOR * (first[k] + expected_speeds(m)[k]);
             if speed > bound {
                 let half = self.start + 0.5 * (d.time - self.start);
@@ -116,8 +116,8 @@ impl RunawayMonitor {
             cause: stiffness_cause(m)
                 .unwrap_or_else(|| "it grows exponentially, and the engine gives no warning".into()),
             evidence: vec![
-                Evidence { name: "speed", value: speed, unit },
-                Evidence { name: "sensible bound", value: bound, unit },
+                FaultEvidence { name: "speed", value: speed, unit },
+                FaultEvidence { name: "sensible bound", value: bound, unit },
             ],
             size: speed / bound,
             by_run: false,

@@ -4,7 +4,7 @@
 use super::bodies::{self, body_of, body_thickness, centre_in_frame, geom_name};
 use super::causes::stiffness_cause;
 use super::creep::CreepMonitor;
-use super::fault::{Evidence, Fault, FaultKind};
+use super::fault::{Fault, FaultEvidence, FaultKind};
 use super::height_field::{self, HeightFieldPair};
 use super::runaway::RunawayMonitor;
 use labspec_core::math::{Vec3, rows, sub};
@@ -53,7 +53,7 @@ struct TouchingPair {
     /// The thickness of the smaller body, m.
     size: f64,
     on: bool,
-    now: bool,
+    current: bool,
     switches: usize,
     blocks: usize,
     /// The current depth, the time since which it has been deep, and the largest ratio of depth to size.
@@ -118,12 +118,12 @@ impl RunMonitor {
         let mut passed = Vec::new();
         for pair in self.pairs.iter_mut().filter(|p| !p.done) {
             let [g, p] = pair.geoms;
-            let Some(now) = centre_in_frame(&d.geom_xpos, &d.geom_xmat, g, p) else { continue };
-            if let Some(before) = pair.before.replace(now)
-                && through(m, p, before, now)
+            let Some(current) = centre_in_frame(&d.geom_xpos, &d.geom_xmat, g, p) else { continue };
+            if let Some(before) = pair.before.replace(current)
+                && through(m, p, before, current)
             {
                 pair.done = true;
-                self.faults.push(tunnelling(m, d, pair.geoms, before, now));
+                self.faults.push(tunnelling(m, d, pair.geoms, before, current));
                 passed.push([p, g]);
             }
         }
@@ -147,15 +147,15 @@ impl RunMonitor {
                 None => continue,
             };
             if let Some(touch) = self.touching.get_mut(i) {
-                touch.now |= contact.efc_address.is_some();
+                touch.current |= contact.efc_address.is_some();
                 touch.depth_now = touch.depth_now.max(-contact.dist);
             }
         }
         self.steps += 1;
         let ends = self.steps.is_multiple_of(BLOCK);
         for touch in &mut self.touching {
-            touch.switches += usize::from(touch.now != touch.on);
-            (touch.on, touch.now) = (touch.now, false);
+            touch.switches += usize::from(touch.current != touch.on);
+            (touch.on, touch.current) = (touch.current, false);
             touch.update_depths(d.time);
             let [g, p] = touch.geoms;
             let place = centre_in_frame(&d.geom_xpos, &d.geom_xmat, g, p);
@@ -204,7 +204,7 @@ impl TouchingPair {
             geoms,
             size: geoms.map(|g| body_thickness(m, body_of(m, g))).into_iter().fold(f64::INFINITY, f64::min),
             on: false,
-            now: false,
+            current: false,
             switches: 0,
             blocks: 0,
             depth_now: 0.0,
@@ -294,9 +294,9 @@ fn tunnelling(m: &Model, d: &Fields, [g, p]: [usize; 2], from: Vec3, to: Vec3) -
         subject: format!("{} through {}", geom_name(m, g), geom_name(m, p)),
         cause,
         evidence: vec![
-            Evidence { name: "way in one step", value: travel, unit: "m" },
-            Evidence { name: "thickness of what it passes", value: thick, unit: "m" },
-            Evidence { name: "own thickness", value: own_thickness, unit: "m" },
+            FaultEvidence { name: "way in one step", value: travel, unit: "m" },
+            FaultEvidence { name: "thickness of what it passes", value: thick, unit: "m" },
+            FaultEvidence { name: "own thickness", value: own_thickness, unit: "m" },
         ],
         size: travel / thick,
         by_run: false,
@@ -323,10 +323,10 @@ fn penetration(m: &Model, t: &TouchingPair) -> Fault {
         subject: format!("{} and {}", geom_name(m, g), geom_name(m, p)),
         cause,
         evidence: vec![
-            Evidence { name: "depth", value: t.depth, unit: "m" },
-            Evidence { name: "size of the smaller one", value: t.size, unit: "m" },
-            Evidence { name: "share", value: t.deepest, unit: "" },
-            Evidence { name: "lasts", value: t.lasted, unit: "s" },
+            FaultEvidence { name: "depth", value: t.depth, unit: "m" },
+            FaultEvidence { name: "size of the smaller one", value: t.size, unit: "m" },
+            FaultEvidence { name: "share", value: t.deepest, unit: "" },
+            FaultEvidence { name: "lasts", value: t.lasted, unit: "s" },
         ],
         size: t.deepest,
         by_run: false,
@@ -344,8 +344,8 @@ fn chatter(m: &Model, d: &Fields, t: &TouchingPair) -> Fault {
         subject: format!("{} on {}", geom_name(m, g), geom_name(m, p)),
         cause,
         evidence: vec![
-            Evidence { name: "switches in 100 steps", value: t.switches as f64, unit: "" },
-            Evidence { name: "moves meanwhile", value: t.moved, unit: "m" },
+            FaultEvidence { name: "switches in 100 steps", value: t.switches as f64, unit: "" },
+            FaultEvidence { name: "moves meanwhile", value: t.moved, unit: "m" },
         ],
         size: t.switches as f64,
         by_run: false,

@@ -4,7 +4,7 @@
 use super::bound::BoundVerify;
 use super::numeric_answer::check_number;
 use super::options::check_options;
-use super::outcome::Outcome;
+use super::outcome::MeasuredRuns;
 use super::outcomes::Outcomes;
 use super::over;
 use super::verdict::{Answer, Verdict};
@@ -45,7 +45,7 @@ fn is_right(answer: &Answer) -> bool {
 }
 
 /// Adds to the reason where the values that these texts read were searched for.
-fn add_searches(bound: &BoundVerify<'_>, texts: &[Text], outcome: &Outcome, answer: &mut Answer) {
+fn add_searches(bound: &BoundVerify<'_>, texts: &[Text], outcome: &MeasuredRuns, answer: &mut Answer) {
     if !is_right(answer) {
         return;
     }

@@ -81,8 +81,9 @@ impl Host for Anything<'_> {
         if functions::name(function) == Some("abs") {
             return Ok(Value::Number(args.first().map_or(f64::NAN, Value::to_number).abs()));
         }
-        let of = args.iter().fold(u64::from(function.0), |h, a| h.wrapping_mul(31) ^ a.to_number().to_bits());
-        let x = self.draw(of);
+        let seed =
+            args.iter().fold(u64::from(function.0), |h, a| h.wrapping_mul(31) ^ a.to_number().to_bits());
+        let x = self.draw(seed);
         Ok(match functions::name(function) {
             Some("contact") => Value::Boolean(x > 0.0),
             _ => Value::Number(x),

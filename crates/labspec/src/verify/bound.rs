@@ -2,12 +2,12 @@
 
 use super::bound_run::{BoundRun, BoundScene, CompiledText};
 use super::compiled_claim::{CompiledClaim, reads_run};
-use super::layout::{Layout, Slot};
+use super::layout::{NumberLayout, Slot};
 use super::measure::Sampled;
 use super::measure_units::MeasureUnits;
-use super::outcome::{Outcome, RunOutcome};
+use super::outcome::{MeasuredRun, MeasuredRuns};
 use super::reads;
-use super::run_cache::{BoundLab, Stage};
+use super::run_cache::{BoundLab, RunCache};
 use super::run_result::RunResult;
 use super::runner::{self, RunRequest};
 use super::value_kind::{ValueKind, kind_of};
@@ -31,13 +31,13 @@ pub struct BoundVerify<'a> {
     pub(super) scenes: Vec<BoundScene<'a>>,
     pub(super) runs: Vec<BoundRun<'a>>,
     pub(super) verify: &'a Verify,
-    pub(super) stage: &'a Stage<'a>,
+    pub(super) stage: &'a RunCache<'a>,
     /// Each lab in its initial state, for expressions over measures (which read nothing of it) and for imagined runs.
     idle: RefCell<BTreeMap<usize, Session<'a>>>,
     /// The units of the measures, computed on first use.
     pub(super) units: OnceCell<Option<MeasureUnits>>,
     /// The positions of all numbers, and the kind of each.
-    layout: Layout,
+    layout: NumberLayout,
     kinds: OnceCell<Vec<ValueKind>>,
     /// Compiled claims by their texts.
     pub(super) claims: RefCell<BTreeMap<String, Rc<CompiledClaim>>>,
@@ -51,7 +51,7 @@ impl<'a> BoundVerify<'a> {
         verify: &'a Verify,
         base: Option<&BoundLab<'a>>,
         scenes: &[Vec<BoundLab<'a>>],
-        stage: &'a Stage<'a>,
+        stage: &'a RunCache<'a>,
         findings: &mut Vec<Finding>,
     ) -> Option<BoundVerify<'a>> {
         let mut bound = BoundVerify {
@@ -61,7 +61,7 @@ impl<'a> BoundVerify<'a> {
             stage,
             idle: RefCell::default(),
             units: OnceCell::new(),
-            layout: Layout::default(),
+            layout: NumberLayout::default(),
             kinds: OnceCell::new(),
             claims: RefCell::default(),
         };
@@ -121,11 +121,11 @@ impl<'a> BoundVerify<'a> {
         };
         let bare = |run: &BoundRun<'_>| (run.name.to_string(), run.swept, names(run));
         let runs: Vec<_> = self.runs.iter().map(bare).collect();
-        self.layout = Layout::from_runs(&runs, self.verify.find.iter().map(|f| f.name.value.clone()));
+        self.layout = NumberLayout::from_runs(&runs, self.verify.find.iter().map(|f| f.name.value.clone()));
     }
 
     /// The positions of the numbers that claims read.
-    pub(super) fn layout(&self) -> &Layout {
+    pub(super) fn layout(&self) -> &NumberLayout {
         &self.layout
     }
 
@@ -240,15 +240,15 @@ impl<'a> BoundVerify<'a> {
 
     /// The labs of every run, in the form that [`BoundVerify::new`] takes.
     pub(super) fn labs(&self) -> Vec<Vec<BoundLab<'a>>> {
-        let of = |run: &'a Run| {
+        let labs_of_run = |run: &'a Run| {
             let members = self.runs.iter().filter(|b| b.spec.is_some_and(|spec| std::ptr::eq(spec, run)));
             members.filter_map(|b| self.scene_of(b).map(|s| s.scene.clone())).collect()
         };
-        self.verify.runs.iter().map(of).collect()
+        self.verify.runs.iter().map(labs_of_run).collect()
     }
 
     /// The cache that the `verify` objects of the lesson share.
-    pub(super) fn stage(&self) -> &'a Stage<'a> {
+    pub(super) fn stage(&self) -> &'a RunCache<'a> {
         self.stage
     }
 
@@ -278,7 +278,7 @@ impl<'a> BoundVerify<'a> {
         &self,
         numerics: StepVariant,
         findings: &mut Vec<Finding>,
-    ) -> Option<Outcome> {
+    ) -> Option<MeasuredRuns> {
         let mut runs = Vec::new();
         for run in &self.runs {
             let scene = self.scene_of(run)?;
@@ -291,7 +291,7 @@ impl<'a> BoundVerify<'a> {
                 missing_samples.extend(sample_gap.map(|sample_gap| (name.clone(), sample_gap)));
                 measures.push((name, value));
             }
-            runs.push(RunOutcome {
+            runs.push(MeasuredRun {
                 name: run.name.to_string(),
                 swept: run.swept,
                 measures,
@@ -300,7 +300,7 @@ impl<'a> BoundVerify<'a> {
                 broke: made.broke,
             });
         }
-        Some(Outcome { runs, found: Vec::new(), looked: Vec::new(), numerics, elsewhere: Vec::new() })
+        Some(MeasuredRuns { runs, found: Vec::new(), looked: Vec::new(), numerics, elsewhere: Vec::new() })
     }
 
     pub(super) fn execute_run(

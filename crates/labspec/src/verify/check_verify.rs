@@ -3,7 +3,7 @@
 use super::bound::BoundVerify;
 use super::judgement::{Judgement, Measured, RunReport, not_executable};
 use super::options::is_undecided;
-use super::outcome::Outcome;
+use super::outcome::MeasuredRuns;
 use super::outcomes::{Outcomes, run_all_numerics};
 use super::quote::RenderedText;
 use super::quote_checker::QuoteChecker;
@@ -79,7 +79,11 @@ pub(crate) fn lint_verify(bound: &BoundVerify<'_>, verify: &Verify, findings: &m
 }
 
 /// Reports the runs. A run that breaks unexpectedly is a finding, and so is one that is declared to break and does not.
-fn report_runs(bound: &BoundVerify<'_>, outcome: &Outcome, findings: &mut Vec<Finding>) -> Vec<RunReport> {
+fn report_runs(
+    bound: &BoundVerify<'_>,
+    outcome: &MeasuredRuns,
+    findings: &mut Vec<Finding>,
+) -> Vec<RunReport> {
     let mut all = Vec::new();
     for (i, run) in outcome.runs.iter().enumerate() {
         let (span, expected) = bound.run_place(i);
@@ -109,7 +113,7 @@ fn report_runs(bound: &BoundVerify<'_>, outcome: &Outcome, findings: &mut Vec<Fi
 }
 
 fn list_measures(outcomes: &Outcomes) -> Vec<Measured> {
-    let halved = outcomes.perturbed[0].as_ref().map(Outcome::list);
+    let halved = outcomes.perturbed[0].as_ref().map(MeasuredRuns::list);
     let at = |i: usize, value: f64| {
         halved.as_ref().and_then(|h| h.get(i)).map(|(_, x)| *x).filter(|x| *x != value)
     };

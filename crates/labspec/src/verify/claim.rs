@@ -7,7 +7,7 @@ use super::compiled_claim::{ClaimInputs, CompiledClaim, TracedValue, reads_data,
 use super::condition;
 use super::format::shorten;
 use super::layout::Slot;
-use super::outcome::Outcome;
+use super::outcome::MeasuredRuns;
 use super::outcome_names::OutcomeNames;
 use crate::bind::{NUMBERS, Scope, to_finding};
 use crate::finding::Finding;
@@ -36,7 +36,7 @@ impl<'a> BoundVerify<'a> {
     }
 
     /// The numbers of an outcome that the texts read, as bits.
-    pub(super) fn read_by(&self, outcome: &Outcome, texts: &[Text]) -> Vec<u64> {
+    pub(super) fn read_by(&self, outcome: &MeasuredRuns, texts: &[Text]) -> Vec<u64> {
         let numbers = self.layout().numbers(outcome);
         let claims = texts.iter().filter_map(|text| self.claim(text));
         let places: BTreeSet<usize> = claims.flat_map(|claim| claim.reads.clone()).collect();
@@ -104,7 +104,12 @@ impl CompiledClaim {
     }
 
     /// The numbers of an outcome with which the claim is evaluated.
-    pub(super) fn inputs(&self, bound: &BoundVerify<'_>, outcome: &Outcome, parts: Vec<f64>) -> ClaimInputs {
+    pub(super) fn inputs(
+        &self,
+        bound: &BoundVerify<'_>,
+        outcome: &MeasuredRuns,
+        parts: Vec<f64>,
+    ) -> ClaimInputs {
         ClaimInputs { numbers: bound.layout().numbers(outcome), parts }
     }
 

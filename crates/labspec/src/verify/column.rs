@@ -86,8 +86,9 @@ impl SweepRows<'_> {
         // Cells in millimetres are converted to the metres of the values. A cell of another dimension matches no value.
         let held =
             unit.as_ref().map_or(quote::UnitMatch::Unknown, |unit| quote::hold(unit, self.swept.as_ref()));
-        let wanted = unit.as_ref().and_then(|unit| unit.dimension);
-        let converted = wanted.zip(self.swept).and_then(|(wanted, found)| quote::conversion(&wanted, &found));
+        let expected = unit.as_ref().and_then(|unit| unit.dimension);
+        let converted =
+            expected.zip(self.swept).and_then(|(expected, found)| quote::conversion(&expected, &found));
         let factor = match (held, converted) {
             (_, Some(factor)) => Some(factor),
             (quote::UnitMatch::Wrong, None) => None,

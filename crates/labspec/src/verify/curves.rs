@@ -2,7 +2,7 @@
 
 use super::bound::BoundVerify;
 use super::bound_run::BoundRun;
-use super::run_cache::Stage;
+use super::run_cache::RunCache;
 use super::runner::{self, RunRequest};
 use crate::run::{Session, StepVariant};
 use crate::spec::Plot;
@@ -30,7 +30,7 @@ pub struct Curves {
 }
 
 /// Repeats a run and samples the traces of the lab. `None` where it cannot be executed, or the lab has no trace.
-fn record_curves(request: &RunRequest<'_, '_>, stage: &Stage<'_>) -> Option<Curves> {
+fn record_curves(request: &RunRequest<'_, '_>, stage: &RunCache<'_>) -> Option<Curves> {
     let scene = &request.scene.scene;
     let (lab, programs) = (&*scene.lab, &*scene.programs);
     let traces = lab.traces().count();

@@ -36,7 +36,7 @@ pub(super) enum ClaimValue {
 }
 
 impl ClaimValue {
-    /// Whether two values are different claims. Numbers differ if they are more than one percent apart.
+    /// Whether two values are different claims. Numbers differ if their relative difference exceeds one percent.
     pub(super) fn differs(self, other: ClaimValue) -> bool {
         match (self, other) {
             (ClaimValue::Holds(a), ClaimValue::Holds(b)) => a != b,
@@ -73,7 +73,7 @@ pub(super) fn could_differ(
     constants: &[f64],
     says: &mut EvaluateClaim<'_>,
 ) -> bool {
-    let Some((now, compared)) = says(nominal) else { return false };
+    let Some((current, compared)) = says(nominal) else { return false };
     let values: Vec<f64> = places.iter().filter_map(|p| nominal.at(*p)).collect();
     let lists = values_to_try(&values, kinds, constants, &compared);
     let mut inputs = nominal.clone();
@@ -84,7 +84,7 @@ pub(super) fn could_differ(
         for x in list.iter().copied().chain([f64::NAN]) {
             inputs.set_value(place, x);
             if let Some((then, compared)) = says(&inputs) {
-                if then.differs(now) {
+                if then.differs(current) {
                     return true;
                 }
                 tried.push((x, compared));
@@ -94,7 +94,7 @@ pub(super) fn could_differ(
         all.push(tried);
     }
     let mut together = JointDraws { nominal, places, kinds, lists: &lists, draws: Draws::new(7) };
-    if together.differs(INITIAL_DRAWS, now, says) {
+    if together.differs(INITIAL_DRAWS, current, says) {
         return true;
     }
     // Where a comparison changes sign between two values, or comes close to it, search for the value in between.
@@ -103,12 +103,12 @@ pub(super) fn could_differ(
             inputs.set_value(place, x);
             says(&inputs)
         };
-        if !kind.whole && find_changing_value(tried, now, &mut alone) {
+        if !kind.whole && find_changing_value(tried, current, &mut alone) {
             return true;
         }
         inputs.copy(nominal);
     }
-    together.differs(TOTAL_DRAWS - INITIAL_DRAWS, now, says)
+    together.differs(TOTAL_DRAWS - INITIAL_DRAWS, current, says)
 }
 
 /// For each measured value, the values that replace it, sorted: multiples of it, and values near everything that it is
@@ -154,7 +154,7 @@ struct JointDraws<'t> {
 
 impl JointDraws<'_> {
     /// Whether one of `count` more draws changes the outcome of a claim.
-    fn differs(&mut self, count: usize, now: ClaimValue, says: &mut EvaluateClaim<'_>) -> bool {
+    fn differs(&mut self, count: usize, current: ClaimValue, says: &mut EvaluateClaim<'_>) -> bool {
         if self.places.len() < 2 {
             return false;
         }
@@ -162,7 +162,7 @@ impl JointDraws<'_> {
         (0..count).any(|_| {
             inputs.copy(self.nominal);
             self.draw(&mut inputs);
-            says(&inputs).is_some_and(|(then, _)| then.differs(now))
+            says(&inputs).is_some_and(|(then, _)| then.differs(current))
         })
     }
 
@@ -187,7 +187,7 @@ impl JointDraws<'_> {
 /// Searches between tried values for one that changes the outcome of a claim, guided by the comparisons of the claim.
 fn find_changing_value(
     comparisons: &[(f64, Vec<Comparison>)],
-    now: ClaimValue,
+    current: ClaimValue,
     says: &mut dyn FnMut(f64) -> Option<(ClaimValue, Vec<Comparison>)>,
 ) -> bool {
     let difference = |list: &[Comparison], k: usize| list.get(k).map(|c| c.left - c.right);
@@ -203,7 +203,7 @@ fn find_changing_value(
             for _ in 0..BISECTIONS {
                 let middle = low + (high - low) / 2.0;
                 let Some((then, list)) = says(middle) else { break };
-                if then.differs(now) {
+                if then.differs(current) {
                     return true;
                 }
                 let Some(d) = difference(&list, k) else { break };
@@ -222,7 +222,7 @@ fn find_changing_value(
             for _ in 0..BISECTIONS {
                 let [x, y] = [high - 0.618_034 * (high - low), low + 0.618_034 * (high - low)];
                 let (Some((at_x, lx)), Some((at_y, ly))) = (says(x), says(y)) else { break };
-                if at_x.differs(now) || at_y.differs(now) {
+                if at_x.differs(current) || at_y.differs(current) {
                     return true;
                 }
                 let (Some(dx), Some(dy)) = (difference(&lx, k), difference(&ly, k)) else { break };

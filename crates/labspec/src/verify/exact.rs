@@ -7,7 +7,7 @@
 
 use super::bound::BoundVerify;
 use super::format::significant;
-use super::run_cache::{BoundLab, Stage};
+use super::run_cache::{BoundLab, RunCache};
 use crate::bind::{Bound, ModelNames, Programs, Scope, functions, include, to_finding};
 use crate::finding::Finding;
 use crate::json::nearest;
@@ -281,7 +281,7 @@ type Comparison = (State, String, Option<LargestDeviation>);
 /// Whether the trace stays within a tolerance.
 fn within(tol: f64, run: &Differences) -> Comparison {
     let (i, worst) = largest(run.times.len(), |i| run.difference(i));
-    let apart =
+    let difference =
         format!("they differ by at most {}, the tolerance is {}", significant(worst), significant(tol));
     // Near zero, both values are noise, and no tolerance is too large for them.
     let noise = worst <= NOISE;
@@ -294,9 +294,9 @@ fn within(tol: f64, run: &Differences) -> Comparison {
         return (State::Unchecked, how, None);
     }
     if worst <= tol {
-        return (State::True(Evidence::Simulated), apart, None);
+        return (State::True(Evidence::Simulated), difference, None);
     }
-    (State::False, apart.clone(), wrong(run, i, run.difference(i), apart))
+    (State::False, difference.clone(), wrong(run, i, run.difference(i), difference))
 }
 
 /// Whether the difference vanishes as the timestep decreases.
@@ -349,7 +349,9 @@ fn wrong(run: &Differences, i: usize, difference: f64, how: String) -> Option<La
 
 /// The index and the magnitude of the largest of `n` numbers.
 fn largest(n: usize, x: impl Fn(usize) -> f64) -> (usize, f64) {
-    (0..n).map(|i| (i, x(i).abs())).fold((0, 0.0), |best, now| if now.1 > best.1 { now } else { best })
+    (0..n)
+        .map(|i| (i, x(i).abs()))
+        .fold((0, 0.0), |best, current| if current.1 > best.1 { current } else { best })
 }
 
 /// The common data of the runs.
@@ -376,7 +378,7 @@ impl ClosedFormRuns<'_> {
     }
 
     /// Runs the lab with its timestep divided by `parts`. The sample times do not depend on `parts`.
-    fn run(&self, parts: usize, stage: &Stage<'_>) -> Result<Differences, String> {
+    fn run(&self, parts: usize, stage: &RunCache<'_>) -> Result<Differences, String> {
         let mut session = self.start();
         let h = session.world.model.opt.timestep;
         let count = run::count_steps(self.lab, None, None, h).map_err(|e| e.0)?.clamp(1, MAX_STEPS);

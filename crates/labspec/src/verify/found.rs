@@ -9,7 +9,7 @@ use super::condition::{self, ConditionMargin};
 use super::evidence::{self, ClaimValue};
 use super::format::{shorten, significant};
 use super::layout::Slot;
-use super::outcome::Outcome;
+use super::outcome::MeasuredRuns;
 use super::value_kind::{ValueKind, kinds_of};
 use crate::bind::to_finding;
 use crate::finding::Finding;
@@ -56,7 +56,7 @@ impl BoundVerify<'_> {
     /// The value of an expression over the outcome. Errors are added to `findings`.
     pub(super) fn find(
         &self,
-        outcome: &Outcome,
+        outcome: &MeasuredRuns,
         text: &Text,
         findings: &mut Vec<Finding>,
     ) -> Option<MeasuredValue> {
@@ -116,7 +116,7 @@ impl BoundVerify<'_> {
     }
 
     /// How a run broke that a claim reads, unless the claim reads the warnings of that run.
-    fn broken(&self, claim: &CompiledClaim, outcome: &Outcome) -> Option<String> {
+    fn broken(&self, claim: &CompiledClaim, outcome: &MeasuredRuns) -> Option<String> {
         let slots = || claim.reads.iter().filter_map(|place| self.layout().slots.get(*place));
         let excused = |place: usize| slots().any(|slot| *slot == Slot::Warnings(place));
         slots().find_map(|slot| {
@@ -133,7 +133,7 @@ impl BoundVerify<'_> {
     }
 
     /// The first NaN that a claim reads, with the reason.
-    fn missing(&self, claim: &CompiledClaim, outcome: &Outcome, inputs: &ClaimInputs) -> Option<String> {
+    fn missing(&self, claim: &CompiledClaim, outcome: &MeasuredRuns, inputs: &ClaimInputs) -> Option<String> {
         let nothing = |place: &&usize| inputs.numbers.get(**place).is_some_and(|x| x.is_nan());
         let place = claim.reads.iter().find(nothing)?;
         match self.layout().slots.get(*place)? {
@@ -180,8 +180,8 @@ impl BoundVerify<'_> {
         }
         // A claim that is false may be true only for rare values, so it is only tested with each number alone.
         match outlook(inputs) {
-            Some((now, _)) if now != ClaimValue::Holds(false) => {
-                self.differs_somewhere(claim, inputs, now, &mut |inputs| Some(outlook(inputs)?.0))
+            Some((current, _)) if current != ClaimValue::Holds(false) => {
+                self.differs_somewhere(claim, inputs, current, &mut |inputs| Some(outlook(inputs)?.0))
             }
             _ => true,
         }

@@ -4,7 +4,7 @@ use super::bound::BoundVerify;
 use super::condition;
 use super::format::shorten;
 use super::found::{MeasuredValue, Undecided};
-use super::outcome::Outcome;
+use super::outcome::MeasuredRuns;
 use crate::finding::Finding;
 use crate::rules;
 use crate::source::Text;
@@ -15,7 +15,7 @@ use labspec_expr::Value;
 /// also reported.
 pub(super) fn grounded_value(
     bound: &BoundVerify<'_>,
-    outcome: &Outcome,
+    outcome: &MeasuredRuns,
     text: &Text,
     findings: &mut Vec<Finding>,
 ) -> Result<MeasuredValue, String> {
@@ -31,7 +31,7 @@ pub(super) fn grounded_value(
 /// Like [`grounded_value`], for perturbed numerics: the claim is not tested with other values again.
 pub(super) fn decided_value(
     bound: &BoundVerify<'_>,
-    outcome: &Outcome,
+    outcome: &MeasuredRuns,
     text: &Text,
     findings: &mut Vec<Finding>,
 ) -> Result<MeasuredValue, String> {

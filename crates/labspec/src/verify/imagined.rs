@@ -51,13 +51,13 @@ const MOST_SAMPLES: f64 = 4096.0;
 const MAX_EVALUATIONS: usize = 40_000;
 
 impl BoundVerify<'_> {
-    /// Whether some set of imagined runs gives a claim an outcome other than `now`. Also `true` where too few sets decide
+    /// Whether some set of imagined runs gives a claim an outcome other than `current`. Also `true` where too few sets decide
     /// it.
     pub(super) fn differs_somewhere(
         &self,
         claim: &CompiledClaim,
         nominal: &ClaimInputs,
-        now: ClaimValue,
+        current: ClaimValue,
         says: &mut dyn FnMut(&ClaimInputs) -> Option<ClaimValue>,
     ) -> bool {
         if claim.measured(self).is_empty() {
@@ -88,7 +88,7 @@ impl BoundVerify<'_> {
             }
             let Some(inputs) = self.draw_inputs(claim, nominal, &numbers, set, samples) else { return true };
             let Some(then) = says(&inputs) else { continue };
-            if then.differs(now) {
+            if then.differs(current) {
                 return true;
             }
             decided += 1;
@@ -136,7 +136,7 @@ impl BoundVerify<'_> {
         for run in runs {
             let seed = set.wrapping_mul(0x1_0001) ^ (run as u64) << 20;
             let manner = manner(&mut draws, numbers);
-            let here = || measures.iter().filter(|(_, of, _)| *of == run);
+            let here = || measures.iter().filter(|(_, owner, _)| *owner == run);
             self.idle_in(self.runs.get(run)?.scene, |session| {
                 let host = Anything { world: &session.world, seeds: [seed, 0], manner, time: Some(0.0) };
                 let mut imagined = ImaginedRun { host, context: session.context.clone() };

@@ -3,7 +3,7 @@
 //! each step variant.
 
 use super::measure_units::RunUnits;
-use super::outcome::Outcome;
+use super::outcome::MeasuredRuns;
 use labspec_expr::dimension::Measure;
 
 /// The number at a position.
@@ -43,7 +43,7 @@ pub(super) type RunShape = (String, Option<(usize, f64)>, Vec<String>);
 
 /// The positions of all numbers.
 #[derive(Debug, Default)]
-pub(super) struct Layout {
+pub(super) struct NumberLayout {
     pub(super) runs: Vec<LayoutRun>,
     pub(super) found: Vec<(String, usize)>,
     pub(super) slots: Vec<Slot>,
@@ -53,10 +53,10 @@ pub(super) struct Layout {
 const VALUE: &str = "value";
 const WARNINGS: &str = "warnings";
 
-impl Layout {
+impl NumberLayout {
     /// The layout for the runs in their order, and the names of the searches.
-    pub(super) fn from_runs(runs: &[RunShape], found: impl Iterator<Item = String>) -> Layout {
-        let mut layout = Layout::default();
+    pub(super) fn from_runs(runs: &[RunShape], found: impl Iterator<Item = String>) -> NumberLayout {
+        let mut layout = NumberLayout::default();
         for (place, (name, swept, measures)) in runs.iter().enumerate() {
             let mut run = LayoutRun { name: name.clone(), list: None, at: Vec::new() };
             match swept {
@@ -110,7 +110,7 @@ impl Layout {
     }
 
     /// The numbers of an outcome.
-    pub(super) fn numbers(&self, outcome: &Outcome) -> Vec<f64> {
+    pub(super) fn numbers(&self, outcome: &MeasuredRuns) -> Vec<f64> {
         let run = |i: usize| outcome.runs.get(i);
         let number = |slot: &Slot| match *slot {
             Slot::Measure(i, m) => run(i).and_then(|run| run.measures.get(m)).map(|(_, x)| *x),

@@ -81,10 +81,10 @@ pub use numerics::PERTURBED_START;
 pub use options::UNDECIDED;
 pub use outcomes::measure_only_run;
 pub use quote::{
-    Counted, Form, OtherValue, QuoteOutcome, QuoteState, Quoted, RenderedText, Stated, Style, Unread,
+    Counted, NumberForm, OtherValue, QuoteOutcome, QuoteState, Quoted, RenderedText, Stated, Style, Unread,
     answered, claimed, counted, folded, plain, quoted, stated,
 };
 pub use quote_checker::Quote;
 pub use reads::labels;
-pub use run_cache::{BoundLab, Stage};
+pub use run_cache::{BoundLab, RunCache};
 pub use verdict::{Answer, Verdict, Weight};

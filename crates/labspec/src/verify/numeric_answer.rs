@@ -5,7 +5,7 @@ use super::bound::BoundVerify;
 use super::format::significant;
 use super::found::MeasuredValue;
 use super::grounded::{decided_value, report_constant_claim, report_undecided};
-use super::outcome::Outcome;
+use super::outcome::MeasuredRuns;
 use super::outcomes::Outcomes;
 use super::survival::{fragile_answer, verdict_by, withstand_numerics};
 use super::verdict::{Answer, Verdict, Weight};
@@ -64,7 +64,7 @@ pub(super) fn check_number(
     {
         return judged(verdict, reason);
     }
-    let mut turns = |outcome: &Outcome, how: &str, weights: &mut [Weight]| {
+    let mut turns = |outcome: &MeasuredRuns, how: &str, weights: &mut [Weight]| {
         key.answer_changes(bound, outcome, how, computed, weights)
     };
     if let Err((verdict, reason)) =
@@ -80,7 +80,7 @@ pub(super) fn check_number(
 /// The value of the expression of a numeric answer. If there is none, the reason is returned and reported.
 fn finite_number(
     bound: &BoundVerify<'_>,
-    outcome: &Outcome,
+    outcome: &MeasuredRuns,
     text: &Text,
     findings: &mut Vec<Finding>,
 ) -> Result<MeasuredValue, String> {
@@ -164,7 +164,7 @@ impl NumericKey<'_> {
     fn check_tolerance_rejects_wrong(
         &self,
         bound: &BoundVerify<'_>,
-        nominal: &Outcome,
+        nominal: &MeasuredRuns,
         wrong: &[Text],
         findings: &mut Vec<Finding>,
     ) -> Result<(), (Verdict, String)> {
@@ -195,7 +195,7 @@ impl NumericKey<'_> {
     fn answer_changes(
         &self,
         bound: &BoundVerify<'_>,
-        outcome: &Outcome,
+        outcome: &MeasuredRuns,
         how: &str,
         computed: f64,
         weights: &mut [Weight],
@@ -223,7 +223,7 @@ const UNIT_NOT_COMPARED: &str =
 /// The value of a mistake, given by an expression under `wrong`.
 fn value_of_wrong_answer(
     bound: &BoundVerify<'_>,
-    outcome: &Outcome,
+    outcome: &MeasuredRuns,
     text: &Text,
     findings: &mut Vec<Finding>,
 ) -> Result<f64, String> {

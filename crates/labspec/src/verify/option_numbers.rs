@@ -3,7 +3,7 @@
 
 use super::bound::BoundVerify;
 use super::format::significant;
-use super::outcome::Outcome;
+use super::outcome::MeasuredRuns;
 use super::quote::{OptionNumber, UnitMatch, conversion, hold, option_ratio, option_text};
 use super::units;
 use crate::finding::Finding;
@@ -29,7 +29,7 @@ struct RequiredRange {
 /// contradicts.
 pub(super) fn check_option_numbers(
     bound: &BoundVerify<'_>,
-    outcome: &Outcome,
+    outcome: &MeasuredRuns,
     options: &[Text],
     conditions: &[Text],
     held: &[Option<bool>],
@@ -53,7 +53,7 @@ pub(super) fn check_option_numbers(
 
 fn contradiction(
     bound: &BoundVerify<'_>,
-    outcome: &Outcome,
+    outcome: &MeasuredRuns,
     option: &Text,
     condition: &Text,
     holds: bool,
@@ -79,14 +79,14 @@ fn contradiction(
         value: required.quantity.clone(),
     };
     let found = units::of_claim(bound, outcome, &text)?;
-    let wanted = stated.unit.dimension?;
-    if !found.agrees(&wanted) {
+    let expected = stated.unit.dimension?;
+    if !found.agrees(&expected) {
         return None;
     }
-    let factor = match conversion(&wanted, &found) {
+    let factor = match conversion(&expected, &found) {
         Some(factor) => factor,
         None if hold(&stated.unit, Some(&found)) == UnitMatch::Fits
-            && (wanted.factor / found.factor - 1.0).abs() < 1e-3 =>
+            && (expected.factor / found.factor - 1.0).abs() < 1e-3 =>
         {
             1.0
         }
@@ -241,7 +241,7 @@ mod tests {
 
     #[test]
     fn the_requirement_of_a_condition_is_an_interval() {
-        let of =
+        let required =
             |text: &str| required_range(&parse_expression(text).tree).map(|a| (a.quantity, a.low, a.high));
         for (text, quantity, low, high) in [
             ("abs(m - 1.25) < 0.25", "m", 1.0, 1.5),
@@ -250,12 +250,12 @@ mod tests {
             ("1 < 1000 * m", "1000 * m", 1.0, f64::INFINITY),
             ("abs(m / 2 - 1) < 0.5", "m", 1.0, 3.0),
         ] {
-            assert_eq!(of(text), Some((quantity.to_string(), low, high)), "{text}");
+            assert_eq!(required(text), Some((quantity.to_string(), low, high)), "{text}");
         }
         for text in
             ["a < b", "abs(a - b) < 1", "a > 1 && b < 2", "a - b > 1", "a > 1 || a < 0", "true", "abs(m) > 1"]
         {
-            assert_eq!(of(text), None, "{text}");
+            assert_eq!(required(text), None, "{text}");
         }
     }
 }

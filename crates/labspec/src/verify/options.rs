@@ -6,7 +6,7 @@ use super::format::shorten;
 use super::found::MeasuredValue;
 use super::grounded::{decided_value, grounded_value};
 use super::option_numbers::check_option_numbers;
-use super::outcome::Outcome;
+use super::outcome::MeasuredRuns;
 use super::outcomes::Outcomes;
 use super::survival::{fragile_answer, verdict_by, withstand_numerics};
 use super::verdict::{Answer, Verdict, Weight};
@@ -61,7 +61,7 @@ pub(super) fn check_options(
         return judgement.judged(Verdict::Failed, "no other option is decided".to_string());
     }
     let mut widened = judgement.weights.clone();
-    let mut turns = |outcome: &Outcome, how: &str, weights: &mut [Weight]| {
+    let mut turns = |outcome: &MeasuredRuns, how: &str, weights: &mut [Weight]| {
         judgement.answer_changes(bound, outcome, how, weights)
     };
     if let Err((verdict, reason)) =
@@ -243,26 +243,27 @@ impl OptionJudgement<'_> {
     fn answer_changes(
         &self,
         bound: &BoundVerify<'_>,
-        outcome: &Outcome,
+        outcome: &MeasuredRuns,
         how: &str,
         weights: &mut [Weight],
     ) -> Option<Finding> {
         let again = evaluate_conditions(bound, outcome, self.verify, false, &mut Vec::new());
-        for (weight, now) in weights.iter_mut().zip(again.iter().flatten()) {
-            weight.widen(now.as_ref().and_then(|(_, condition)| condition.margin));
+        for (weight, current) in weights.iter_mut().zip(again.iter().flatten()) {
+            weight.widen(current.as_ref().and_then(|(_, condition)| condition.margin));
         }
         let first = self.right.first().copied().unwrap_or(0);
         let (i, what) = match &again {
             Err(reason) => (first, reason.clone()),
-            Ok(now) => {
-                let now = now.iter().enumerate().map(|(i, value)| option_weight(i, value.as_ref()));
-                let (now, _) = now.zip(weights.iter()).find(|(now, then)| now.holds != then.holds)?;
-                let i = now.option.unwrap_or(first);
-                (i, format!("then the condition of {} {}", self.name(i), now.describe()))
+            Ok(current) => {
+                let current = current.iter().enumerate().map(|(i, value)| option_weight(i, value.as_ref()));
+                let (current, _) =
+                    current.zip(weights.iter()).find(|(current, then)| current.holds != then.holds)?;
+                let i = current.option.unwrap_or(first);
+                (i, format!("then the condition of {} {}", self.name(i), current.describe()))
             }
         };
-        let now = format!("with the numerics of the lesson, this {}", self.describe(i));
-        Some(fragile_answer(self.keyed.clone(), how, &what).related(self.condition(i), now))
+        let current = format!("with the numerics of the lesson, this {}", self.describe(i));
+        Some(fragile_answer(self.keyed.clone(), how, &what).related(self.condition(i), current))
     }
 
     /// Names the undecided options.
@@ -282,7 +283,7 @@ pub const UNDECIDED: &str = "undecided";
 /// with other values in place of the measured ones, as under the numerics of the lesson.
 fn evaluate_conditions(
     bound: &BoundVerify<'_>,
-    outcome: &Outcome,
+    outcome: &MeasuredRuns,
     verify: &Verify,
     tried: bool,
     findings: &mut Vec<Finding>,
@@ -327,7 +328,7 @@ pub(super) enum SameOptions {
 /// Whether exactly the same options hold as before, in an outcome with other settings.
 pub(super) fn compare_options(
     bound: &BoundVerify<'_>,
-    outcome: &Outcome,
+    outcome: &MeasuredRuns,
     verify: &Verify,
     weights: &[Weight],
 ) -> SameOptions {
@@ -335,14 +336,14 @@ pub(super) fn compare_options(
         Ok(values) => values,
         Err(reason) => return SameOptions::Open(reason),
     };
-    let now = values.iter().enumerate().map(|(i, found)| option_weight(i, found.as_ref()));
+    let current = values.iter().enumerate().map(|(i, found)| option_weight(i, found.as_ref()));
     let mut least = f64::INFINITY;
-    for (now, then) in now.zip(weights) {
-        if now.holds != then.holds {
-            let i = now.option.unwrap_or(0);
-            return SameOptions::No(format!("the condition of option {i} {}", now.describe()));
+    for (current, then) in current.zip(weights) {
+        if current.holds != then.holds {
+            let i = current.option.unwrap_or(0);
+            return SameOptions::No(format!("the condition of option {i} {}", current.describe()));
         }
-        least = least.min(now.margin.map_or(f64::INFINITY, f64::abs));
+        least = least.min(current.margin.map_or(f64::INFINITY, f64::abs));
     }
     SameOptions::Yes(least)
 }

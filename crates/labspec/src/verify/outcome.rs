@@ -5,7 +5,7 @@ use crate::run::StepVariant;
 
 /// The measures of one run.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct RunOutcome {
+pub(super) struct MeasuredRun {
     pub(super) name: String,
     /// Its index and value in a sweep.
     pub(super) swept: Option<(usize, f64)>,
@@ -18,7 +18,7 @@ pub(super) struct RunOutcome {
     pub(super) broke: Option<String>,
 }
 
-impl RunOutcome {
+impl MeasuredRun {
     /// The name of the run in conditions: `fall`, `fall[2]`.
     pub(super) fn title(&self) -> String {
         match self.swept {
@@ -30,8 +30,8 @@ impl RunOutcome {
 
 /// The measures of all runs.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Outcome {
-    pub(super) runs: Vec<RunOutcome>,
+pub(super) struct MeasuredRuns {
+    pub(super) runs: Vec<MeasuredRun>,
     /// Results of searches.
     pub(super) found: Vec<(String, f64)>,
     /// The searched range of each, in words.
@@ -41,7 +41,7 @@ pub(super) struct Outcome {
     pub(super) elsewhere: Vec<(String, f64)>,
 }
 
-impl Outcome {
+impl MeasuredRuns {
     /// The value that a reference engine recorded for this expression.
     pub(super) fn measured_elsewhere(&self, text: &str) -> Option<f64> {
         self.elsewhere.iter().find(|(text_of_run, _)| text_of_run == text).map(|(_, x)| *x)
@@ -50,7 +50,7 @@ impl Outcome {
     /// All measures, with their names in conditions.
     pub(super) fn list(&self) -> Vec<(String, f64)> {
         let short = self.runs.len() == 1;
-        let each = |r: &RunOutcome| {
+        let each = |r: &MeasuredRun| {
             let name = |m: &str| match r.swept {
                 _ if short => m.to_string(),
                 Some((i, _)) => format!("{}.{m}[{i}]", r.name),

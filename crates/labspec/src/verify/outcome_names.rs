@@ -1,6 +1,6 @@
 //! The names of results in conditions: `run.measure`, or the measure alone when there is one run.
 
-use super::layout::{Layout, LayoutRun};
+use super::layout::{LayoutRun, NumberLayout};
 use super::measure_units::RunUnits;
 use crate::bind::{ModelNames, NUMBERS, Scope};
 use labspec_expr::dimension::Measure;
@@ -15,7 +15,7 @@ const RUNS: u32 = 0x2000;
 
 /// The names in conditions: runs and measures, and with one run also everything that a measure may use.
 pub(super) struct OutcomeNames<'a> {
-    layout: &'a Layout,
+    layout: &'a NumberLayout,
     model: ModelNames<'a>,
     /// Functions that take the numbers of several runs.
     claims: ModelNames<'a>,
@@ -35,7 +35,7 @@ pub(super) struct NamesRead {
 }
 
 impl<'a> OutcomeNames<'a> {
-    pub(super) fn new(layout: &'a Layout, model: ModelNames<'a>) -> OutcomeNames<'a> {
+    pub(super) fn new(layout: &'a NumberLayout, model: ModelNames<'a>) -> OutcomeNames<'a> {
         let mut claims = model;
         claims.scope = Scope::Claim;
         OutcomeNames { layout, model, claims, units: None, met: Cell::default() }

@@ -3,7 +3,7 @@
 use super::bound::BoundVerify;
 use super::bound_run::BoundRun;
 use super::numerics::{CHANGES, PERTURBED, PERTURBED_BACK};
-use super::outcome::Outcome;
+use super::outcome::MeasuredRuns;
 use super::search::{self, SearchCase};
 use crate::finding::Finding;
 use crate::rules;
@@ -12,7 +12,7 @@ use crate::spec::{Find, Verify};
 
 impl BoundVerify<'_> {
     /// Executes every run, evaluates every measure and makes every search. `None` when a run cannot be executed.
-    pub(super) fn outcome(&self, numerics: StepVariant, findings: &mut Vec<Finding>) -> Option<Outcome> {
+    pub(super) fn outcome(&self, numerics: StepVariant, findings: &mut Vec<Finding>) -> Option<MeasuredRuns> {
         let mut outcome = self.outcome_of_runs(numerics, findings)?;
         for find in &self.verify.find {
             let limit = self.search(find, numerics, findings)?;
@@ -58,11 +58,11 @@ pub fn measure_only_run(bound: &BoundVerify<'_>, numerics: StepVariant) -> Optio
 
 /// The outcomes of a `verify` object under all numerics that its claims need.
 pub(super) struct Outcomes {
-    pub(super) nominal: Outcome,
+    pub(super) nominal: MeasuredRuns,
     /// In the order of [`PERTURBED`](super::numerics::PERTURBED); `None` where no claim needs them.
-    pub(super) perturbed: [Option<Outcome>; CHANGES],
+    pub(super) perturbed: [Option<MeasuredRuns>; CHANGES],
     /// The start perturbed in the other direction, if the first perturbation changed a value.
-    pub(super) perturbed_back: Option<Outcome>,
+    pub(super) perturbed_back: Option<MeasuredRuns>,
 }
 
 /// Executes every run under all numerics that are needed.

@@ -32,14 +32,14 @@ const FIRST_STEP: f64 = 0.25;
 const LAST_STEP: f64 = 1.0 / 64.0;
 
 /// A slider and the values on its grid between the ends that the claim names.
-struct Axis<'v> {
+struct SweptSlider<'v> {
     label: &'v Text,
     from: f64,
     step: f64,
     count: f64,
 }
 
-impl Axis<'_> {
+impl SweptSlider<'_> {
     /// The value at a fraction of the range: the nearest one that a student can reach.
     fn at(&self, part: f64) -> f64 {
         let x = self.from + (part * self.count).round() * self.step;
@@ -104,11 +104,11 @@ fn axes_of<'v>(
     bound: &BoundVerify<'_>,
     verify: &'v Verify,
     findings: &mut Vec<Finding>,
-) -> Result<Vec<Axis<'v>>, &'static str> {
+) -> Result<Vec<SweptSlider<'v>>, &'static str> {
     let Some(lab) = bound.lab().map(|scene| scene.lab.clone()) else {
         return Err("the lab does not have the sliders of `over`");
     };
-    let axes: Result<Vec<Axis<'_>>, Box<Finding>> =
+    let axes: Result<Vec<SweptSlider<'_>>, Box<Finding>> =
         verify.over.iter().map(|(label, ends)| axis(&lab, label, *ends)).collect();
     axes.map_err(|wrong| {
         findings.push(*wrong);
@@ -152,7 +152,7 @@ fn slider_without_effect(label: &Text) -> Finding {
 }
 
 /// A slider with the values of the range.
-fn axis<'v>(lab: &Lab, label: &'v Text, ends: [f64; 2]) -> Result<Axis<'v>, Box<Finding>> {
+fn axis<'v>(lab: &Lab, label: &'v Text, ends: [f64; 2]) -> Result<SweptSlider<'v>, Box<Finding>> {
     let wrong = |what: String| {
         let finding = Finding::error(rules::RUN_IMPOSSIBLE, label.span(), what)
             .why("the checker tests only what a student can do")
@@ -181,14 +181,14 @@ fn axis<'v>(lab: &Lab, label: &'v Text, ends: [f64; 2]) -> Result<Axis<'v>, Box<
             significant(ends[1])
         )));
     }
-    Ok(Axis { label, from, step, count: ((to - from) / step).round() })
+    Ok(SweptSlider { label, from, step, count: ((to - from) / step).round() })
 }
 
 /// The tested settings.
 struct Space<'b, 's, 'v> {
     bound: &'b BoundVerify<'s>,
     verify: &'v Verify,
-    axes: Vec<Axis<'v>>,
+    axes: Vec<SweptSlider<'v>>,
     weights: Vec<Weight>,
     /// The margin of the answer by the bits of the slider values.
     tried: BTreeMap<Vec<u64>, f64>,
@@ -269,7 +269,7 @@ impl Space<'_, '_, '_> {
             findings.push(out_of_work(self.verify.span.clone(), "everywhere in its range"));
             return None;
         }
-        let one = |(axis, x): (&Axis<'_>, &f64)| format!("\"{}\" at {x}", axis.label.value);
+        let one = |(axis, x): (&SweptSlider<'_>, &f64)| format!("\"{}\" at {x}", axis.label.value);
         let setting = self.axes.iter().zip(&values).map(one).collect::<Vec<_>>().join(", ");
         self.seen.insert(again.read_by(&outcome, &self.verify.options));
         match same {
@@ -294,9 +294,10 @@ impl Space<'_, '_, '_> {
     }
 
     /// A slider that has no effect on the simulation.
-    fn without_effect(&self) -> Option<&Axis<'_>> {
-        let changes =
-            |axis: &Axis<'_>| slider_changes_anything(self.bound, axis.label, axis.at(0.0), axis.at(1.0));
+    fn without_effect(&self) -> Option<&SweptSlider<'_>> {
+        let changes = |axis: &SweptSlider<'_>| {
+            slider_changes_anything(self.bound, axis.label, axis.at(0.0), axis.at(1.0))
+        };
         self.axes.iter().find(|axis| !changes(axis))
     }
 

@@ -3,7 +3,7 @@
 use super::bound::BoundVerify;
 use super::found::MeasuredValue;
 use super::grounded::grounded_value;
-use super::outcome::Outcome;
+use super::outcome::MeasuredRuns;
 use super::outcomes::Outcomes;
 use super::quote::RenderedText;
 use super::quote::{self, OtherValue, QuoteState};
@@ -110,7 +110,7 @@ impl QuotedValue {
 
 fn value_of(
     bound: &BoundVerify<'_>,
-    outcome: &Outcome,
+    outcome: &MeasuredRuns,
     expr: &Text,
     how: &'static str,
 ) -> Option<OtherValue> {

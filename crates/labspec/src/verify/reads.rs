@@ -21,8 +21,8 @@ pub fn labels(lab: &Lab) -> DisplayedLabels {
     };
     let traces = lab.plots.iter().enumerate().flat_map(|(i, plot)| {
         let prefix = format!("plot/{i}/");
-        let of = move |t| trace(if several(t) { &prefix } else { "" }, plot, t);
-        plot.traces.iter().map(of)
+        let read_trace = move |t| trace(if several(t) { &prefix } else { "" }, plot, t);
+        plot.traces.iter().map(read_trace)
     });
     let called = lab
         .plots

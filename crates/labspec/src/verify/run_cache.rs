@@ -61,7 +61,7 @@ const WORK: u64 = 12_000_000_000;
 
 /// The cache that the `verify` objects of a lesson share: modified labs and results of runs, within one work budget.
 #[derive(Debug)]
-pub struct Stage<'a> {
+pub struct RunCache<'a> {
     models: &'a Models,
     changed: RefCell<Vec<BoundLab<'static>>>,
     runs: RefCell<BTreeMap<String, RunResult>>,
@@ -70,10 +70,10 @@ pub struct Stage<'a> {
     has_uncoupled_change: Cell<bool>,
 }
 
-impl<'a> Stage<'a> {
+impl<'a> RunCache<'a> {
     /// An empty cache. `models` resolves the models that labs name.
-    pub fn new(models: &'a Models) -> Stage<'a> {
-        Stage {
+    pub fn new(models: &'a Models) -> RunCache<'a> {
+        RunCache {
             models,
             changed: RefCell::default(),
             runs: RefCell::default(),
@@ -171,8 +171,8 @@ impl<'a> Stage<'a> {
         let list: Vec<&Patch> = patches.iter().map(|(p, _)| p).collect();
         let text = controller.map(|c| &c.value);
         let changes = format!("{}{list:?} {key:?} {text:?}", base.changes);
-        let wanted = BoundLab { changes, patches: patches.clone(), ..base.clone() };
-        if let Some(made) = self.changed.borrow().iter().find(|made| made.is(&wanted)) {
+        let requested = BoundLab { changes, patches: patches.clone(), ..base.clone() };
+        if let Some(made) = self.changed.borrow().iter().find(|made| made.is(&requested)) {
             return Some(made.clone());
         }
         let lab = changed_lab(&base.lab, key, controller);
@@ -207,7 +207,7 @@ impl<'a> Stage<'a> {
         }
         let programs = ProgramsRef::Shared(Arc::new(programs));
         let has_uncoupled_change = base.has_uncoupled_change || left;
-        let scene = BoundLab { lab: Cow::Owned(lab), model, programs, has_uncoupled_change, ..wanted };
+        let scene = BoundLab { lab: Cow::Owned(lab), model, programs, has_uncoupled_change, ..requested };
         self.changed.borrow_mut().push(scene.clone());
         Some(scene)
     }
@@ -251,8 +251,8 @@ pub(super) fn misspelt(lab: &Lab, what: &Text) -> Option<Finding> {
     Some(cannot(what.span(), message).help(format!("did you mean `{right}`?")))
 }
 
-fn inside(span: &Range<usize>, of: &Range<usize>) -> bool {
-    of.start <= span.start && span.end <= of.end
+fn inside(span: &Range<usize>, outer: &Range<usize>) -> bool {
+    outer.start <= span.start && span.end <= outer.end
 }
 
 fn cannot(place: Range<usize>, message: String) -> Finding {

@@ -4,7 +4,7 @@
 use super::bound_run::{BoundRun, BoundScene, CompiledText};
 use super::measure::Measure;
 use super::reads;
-use super::run_cache::Stage;
+use super::run_cache::RunCache;
 use super::run_result::RunResult;
 use crate::bind::{include, scalar};
 use crate::finding::Finding;
@@ -32,7 +32,7 @@ pub(super) struct RunRequest<'r, 'a> {
 /// Executes a run. A result in the cache is reused; its findings were reported before.
 pub(super) fn execute_run(
     request: &RunRequest<'_, '_>,
-    stage: &Stage<'_>,
+    stage: &RunCache<'_>,
     findings: &mut Vec<Finding>,
 ) -> Option<RunResult> {
     // A step variant does not override what the lesson sets. A run that sets its timestep is about numerics.
@@ -89,7 +89,7 @@ pub(super) struct PreparedRun<'r> {
 /// Sets up a run: its controls, its setup, its length. Errors are added to `findings`.
 pub(super) fn prepare_run<'r>(
     request: &RunRequest<'r, '_>,
-    stage: &Stage<'_>,
+    stage: &RunCache<'_>,
     findings: &mut Vec<Finding>,
 ) -> Option<PreparedRun<'r>> {
     let RunRequest { scene: bound, run, numerics, place, .. } = request;
@@ -163,7 +163,11 @@ pub(super) fn play<'r>(
     ready.open = open;
 }
 
-fn make(request: &RunRequest<'_, '_>, stage: &Stage<'_>, findings: &mut Vec<Finding>) -> Option<RunResult> {
+fn make(
+    request: &RunRequest<'_, '_>,
+    stage: &RunCache<'_>,
+    findings: &mut Vec<Finding>,
+) -> Option<RunResult> {
     let RunRequest { run, measures, .. } = request;
     let mut ready = prepare_run(request, stage, findings)?;
     let mut running: Vec<Measure<'_>> = measures.iter().map(|m| Measure::new(&m.program, m.text)).collect();

@@ -7,7 +7,7 @@
 
 use super::bound::BoundVerify;
 use super::format::significant;
-use super::run_cache::{BoundLab, Stage, misspelt};
+use super::run_cache::{BoundLab, RunCache, misspelt};
 use super::runner::TIMESTEP;
 use crate::finding::Finding;
 use crate::rules;
@@ -52,7 +52,7 @@ pub(super) struct SearchLimit {
 /// reported.
 pub(super) fn search(
     case: &SearchCase<'_>,
-    stage: &Stage<'_>,
+    stage: &RunCache<'_>,
     numerics: StepVariant,
     findings: &mut Vec<Finding>,
 ) -> Option<SearchLimit> {
@@ -137,13 +137,13 @@ fn halve(find: &Find, try_at: &mut dyn FnMut(f64) -> Option<TriedValue>) -> Opti
         if high - low <= find.tol.value || middle <= low || middle >= high {
             break;
         }
-        let now = try_at(middle)?;
-        if now.holds == find.largest {
+        let current = try_at(middle)?;
+        if current.holds == find.largest {
             low = middle
         } else {
             high = middle
         }
-        tried.push((middle, now));
+        tried.push((middle, current));
     }
     for x in TEST_DISTANCES.iter().flat_map(|part| [low - part * (to - from), high + part * (to - from)]) {
         if x > from && x < to {
@@ -254,7 +254,7 @@ fn path(case: &SearchCase<'_>) -> Option<String> {
 /// if the condition is undecided.
 fn holds(
     case: &SearchCase<'_>,
-    stage: &Stage<'_>,
+    stage: &RunCache<'_>,
     x: f64,
     numerics: StepVariant,
     findings: &mut Vec<Finding>,

@@ -2,7 +2,7 @@
 
 use super::bound::BoundVerify;
 use super::numerics::{CLOSE_VARIANTS, PERTURBED};
-use super::outcome::Outcome;
+use super::outcome::MeasuredRuns;
 use super::outcomes::Outcomes;
 use super::verdict::{Verdict, Weight};
 use crate::finding::Finding;
@@ -11,13 +11,13 @@ use crate::rules;
 use std::ops::Range;
 
 /// The outcomes under perturbed numerics, with their names.
-fn perturbed_outcomes(outcomes: &Outcomes) -> impl Iterator<Item = (&Outcome, &'static str)> {
+fn perturbed_outcomes(outcomes: &Outcomes) -> impl Iterator<Item = (&MeasuredRuns, &'static str)> {
     outcomes.perturbed.iter().zip(PERTURBED).filter_map(|(o, (_, how))| Some((o.as_ref()?, how)))
 }
 
 /// A finding if the answer changes in an outcome under perturbed numerics with the given name. The spread of the weights is
 /// widened by the margins.
-pub(super) type ChangedAnswer<'t> = dyn FnMut(&Outcome, &str, &mut [Weight]) -> Option<Finding> + 't;
+pub(super) type ChangedAnswer<'t> = dyn FnMut(&MeasuredRuns, &str, &mut [Weight]) -> Option<Finding> + 't;
 
 /// Checks an answer under the perturbed numerics, and under the closer ones where a margin is small. `turns` returns the
 /// change in an outcome, and widens the spread of the weights.
@@ -32,7 +32,7 @@ pub(super) fn withstand_numerics(
     findings: &mut Vec<Finding>,
     turns: &mut ChangedAnswer<'_>,
 ) -> Result<(), (Verdict, String)> {
-    let mut withstand = |outcome: Option<&Outcome>, how: &str, weights: &mut [Weight]| {
+    let mut withstand = |outcome: Option<&MeasuredRuns>, how: &str, weights: &mut [Weight]| {
         let turned = outcome.map(|outcome| turns(outcome, how, weights));
         match turned {
             Some(None) => Ok(()),

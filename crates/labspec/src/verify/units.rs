@@ -4,7 +4,7 @@ use super::bound::BoundVerify;
 use super::bound_run::{BoundRun, BoundScene};
 use super::compiled_claim::{ClaimInputs, CompiledClaim};
 use super::measure_units::MeasureUnits;
-use super::outcome::Outcome;
+use super::outcome::MeasuredRuns;
 use super::outcome_names::OutcomeNames;
 use super::run_cache::BoundLab;
 use crate::bind::Scope;
@@ -31,7 +31,7 @@ fn units_of_measures(bound: &BoundVerify<'_>) -> Option<MeasureUnits> {
 }
 
 /// The dimension of a claim; `None` where it is not certain.
-pub(super) fn of_claim(bound: &BoundVerify<'_>, outcome: &Outcome, text: &Text) -> Option<Dimension> {
+pub(super) fn of_claim(bound: &BoundVerify<'_>, outcome: &MeasuredRuns, text: &Text) -> Option<Dimension> {
     let (base, units, claim) = (bound.base()?, bound.units()?, bound.claim(text)?);
     let names = OutcomeNames::new(bound.layout(), base.names(Scope::Measure)).measuring(&units.runs);
     let nothing = |d: &Dimension| d.is_number() && d.factor.is_nan();
@@ -50,7 +50,7 @@ const SCALES: [f64; 2] = [2.0, 3.0];
 /// be quantities themselves.
 fn by_scale(
     bound: &BoundVerify<'_>,
-    outcome: &Outcome,
+    outcome: &MeasuredRuns,
     claim: &CompiledClaim,
     units: &MeasureUnits,
 ) -> Option<Dimension> {
@@ -68,7 +68,7 @@ fn by_scale(
         _ => None,
     };
     let measures: Vec<(usize, Dimension)> = claim.reads.iter().map(measure).collect::<Option<_>>()?;
-    let now = value(&inputs)?;
+    let current = value(&inputs)?;
     let mut all = Dimension::NUMBER;
     for base in 0..BASES {
         let mut powers = SCALES.iter().map(|scale| {
@@ -76,7 +76,7 @@ fn by_scale(
             for (place, d) in &measures {
                 other.set_value(*place, inputs.at(*place)? * scale.powf(d.power_of(base)));
             }
-            let ratio = value(&other)? / now;
+            let ratio = value(&other)? / current;
             (ratio > 0.0).then(|| ratio.ln() / scale.ln())
         });
         let (first, second) = (powers.next()??, powers.next()??);

@@ -181,9 +181,9 @@ fn flat(env: &mut Env<'_>, list: &Value, args: &[Value]) -> NativeOutcome {
 fn includes(env: &mut Env<'_>, list: &Value, args: &[Value]) -> NativeOutcome {
     let items = env.items(list)?;
     let (from, _) = range(env, args.get(..2).unwrap_or(args), 1, items.len())?;
-    let wanted = arg(args, 0);
+    let searched = arg(args, 0);
     // Unlike `===`, it finds NaN.
-    let is = |v: &Value| v.strictly_equals(wanted) || is_nan(v) && is_nan(wanted);
+    let is = |v: &Value| v.strictly_equals(searched) || is_nan(v) && is_nan(searched);
     Ok(Value::Boolean(items.iter().skip(from).any(is)))
 }
 

@@ -113,24 +113,24 @@ fn from_index<'t>(env: &mut Env<'_>, text: &'t str, start: &Value) -> Result<&'t
 }
 
 fn includes(env: &mut Env<'_>, text: &Value, args: &[Value]) -> NativeOutcome {
-    let wanted = env.text(arg(args, 0))?;
+    let searched = env.text(arg(args, 0))?;
     let rest = from_index(env, str_of(text), arg(args, 1))?;
-    Ok(Value::Boolean(rest.contains(&wanted)))
+    Ok(Value::Boolean(rest.contains(&searched)))
 }
 
 fn index_of(env: &mut Env<'_>, text: &Value, args: &[Value]) -> NativeOutcome {
-    let wanted = env.text(arg(args, 0))?;
+    let searched = env.text(arg(args, 0))?;
     let text = str_of(text);
     let rest = from_index(env, text, arg(args, 1))?;
     let skipped = text.len() - rest.len();
-    let found = rest.find(&wanted).map(|byte| units_before(text, skipped + byte));
+    let found = rest.find(&searched).map(|byte| units_before(text, skipped + byte));
     Ok(Value::Number(found.unwrap_or(-1.0)))
 }
 
 fn last_index_of(env: &mut Env<'_>, text: &Value, args: &[Value]) -> NativeOutcome {
-    let wanted = env.text(arg(args, 0))?;
+    let searched = env.text(arg(args, 0))?;
     let text = str_of(text);
-    Ok(Value::Number(text.rfind(&wanted).map_or(-1.0, |byte| units_before(text, byte))))
+    Ok(Value::Number(text.rfind(&searched).map_or(-1.0, |byte| units_before(text, byte))))
 }
 
 fn slice(env: &mut Env<'_>, text: &Value, args: &[Value]) -> NativeOutcome {
@@ -167,14 +167,14 @@ fn char_code_at(env: &mut Env<'_>, text: &Value, args: &[Value]) -> NativeOutcom
 }
 
 fn starts_with(env: &mut Env<'_>, text: &Value, args: &[Value]) -> NativeOutcome {
-    let wanted = env.text(arg(args, 0))?;
+    let searched = env.text(arg(args, 0))?;
     let rest = from_index(env, str_of(text), arg(args, 1))?;
-    Ok(Value::Boolean(rest.starts_with(&wanted)))
+    Ok(Value::Boolean(rest.starts_with(&searched)))
 }
 
 fn ends_with(env: &mut Env<'_>, text: &Value, args: &[Value]) -> NativeOutcome {
-    let wanted = env.text(arg(args, 0))?;
-    Ok(Value::Boolean(str_of(text).ends_with(&wanted)))
+    let searched = env.text(arg(args, 0))?;
+    Ok(Value::Boolean(str_of(text).ends_with(&searched)))
 }
 
 /// The padding that extends a string to a length.

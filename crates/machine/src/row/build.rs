@@ -8,7 +8,7 @@ use crate::operators::BinaryOp;
 use labspec_finding::order;
 
 /// A step whose result is needed in a register.
-pub struct WantedResult {
+pub struct RequestedResult {
     /// The step.
     pub step: StepId,
     /// The register.
@@ -34,8 +34,12 @@ impl Row {
 
     /// Builds the row of a part of a program, given the registers of its inputs. Requested results go to registers of the
     /// program, intermediate results to free ones.
-    pub fn part(formula: &Formula, wanted: &[WantedResult], free: impl Iterator<Item = u8>) -> Option<Row> {
-        let mut row = Row::with(formula, &[], wanted, free)?;
+    pub fn part(
+        formula: &Formula,
+        requested: &[RequestedResult],
+        free: impl Iterator<Item = u8>,
+    ) -> Option<Row> {
+        let mut row = Row::with(formula, &[], requested, free)?;
         row.start = row.begin();
         Some(row)
     }
@@ -43,7 +47,7 @@ impl Row {
     fn with(
         formula: &Formula,
         elements: &[FieldElement],
-        wanted: &[WantedResult],
+        requested: &[RequestedResult],
         mut free: impl Iterator<Item = u8>,
     ) -> Option<Row> {
         let mut homes = Vec::with_capacity(formula.steps.len());
@@ -53,8 +57,8 @@ impl Row {
                     u8::try_from(elements.binary_search(&(*field, *index)).ok()?).ok()
                 }
                 FormulaStep::Input(register) => u8::try_from(*register).ok(),
-                _ => match wanted.iter().find(|w| w.step == at && w.at_once) {
-                    Some(wanted) => Some(wanted.register),
+                _ => match requested.iter().find(|w| w.step == at && w.at_once) {
+                    Some(requested) => Some(requested.register),
                     None => free.next(),
                 },
             };
@@ -64,18 +68,18 @@ impl Row {
         for (at, step) in (0..).zip(&formula.steps) {
             build.step(at, *step)?;
         }
-        for wanted in wanted {
-            if build.register_of(wanted.step) == Some(wanted.register) {
+        for requested in requested {
+            if build.register_of(requested.step) == Some(requested.register) {
                 continue;
             }
-            build.take(wanted.step)?;
-            build.at_hand = Some(wanted.step);
-            build.ops.push(RowOp::Keep(wanted.register));
+            build.take(requested.step)?;
+            build.at_hand = Some(requested.step);
+            build.ops.push(RowOp::Keep(requested.register));
         }
-        if wanted.is_empty() {
+        if requested.is_empty() {
             build.take(formula.output)?;
         }
-        build.drop_unread(wanted);
+        build.drop_unread(requested);
         let (ops, args) = (build.ops, build.args);
         let passes_nan = ops.iter().all(|op| op.passes_nan());
         Some(Row { elements: Vec::new(), start: 0, ops, args, truth: formula.truth, passes_nan })
@@ -201,9 +205,9 @@ impl RowBuilder<'_> {
     }
 
     /// Removes stores to registers that nothing reads.
-    fn drop_unread(&mut self, wanted: &[WantedResult]) {
+    fn drop_unread(&mut self, requested: &[RequestedResult]) {
         let mut read = [false; REGISTERS];
-        for r in wanted.iter().map(|w| w.register).chain(self.args.iter().copied()) {
+        for r in requested.iter().map(|w| w.register).chain(self.args.iter().copied()) {
             read[usize::from(r)] = true;
         }
         for op in &self.ops {

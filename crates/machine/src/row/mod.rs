@@ -6,6 +6,6 @@ mod build;
 mod operation;
 mod run;
 
-pub use build::WantedResult;
+pub use build::RequestedResult;
 pub use operation::RowOp;
 pub use run::{REGISTERS, Row};

@@ -1,9 +1,9 @@
-//! Every rule of the language, each on a page of its own: what is wrong, why it matters, a wrong and a right example. The
-//! parser, the binder and the machine say where one is broken.
+//! Lint rules of the language. Each rule has its own file: what is wrong, why it matters, a wrong and a right example. The parser,
+//! the binder and the virtual machine report violations.
 
 pub use labspec_finding::Rule;
 
-// Every file of this folder, by the build script.
+// The build script lists the files of this folder.
 include!(concat!(env!("OUT_DIR"), "/rules.rs"));
 
 #[cfg(test)]

@@ -284,11 +284,11 @@ impl Machine<'_> {
         let name = self.val(f, name).clone();
         let name = self.env(code).text(&name)?;
         let Some(picks) = code.form.picks.get(table as usize) else { return Ok(Value::Undefined) };
-        let MemberTable { noun, of, .. } = &**picks;
-        match of.binary_search_by(|(n, _)| (**n).cmp(&name)) {
-            Ok(at) => Ok(of.get(at).map(|(_, v)| v.clone()).unwrap_or_default()),
+        let MemberTable { noun, members, .. } = &**picks;
+        match members.binary_search_by(|(n, _)| (**n).cmp(&name)) {
+            Ok(at) => Ok(members.get(at).map(|(_, v)| v.clone()).unwrap_or_default()),
             Err(_) => {
-                let near = labspec_finding::nearest(&name, of.iter().map(|(n, _)| &**n));
+                let near = labspec_finding::nearest(&name, members.iter().map(|(n, _)| &**n));
                 let meant = near.map(|n| format!("; did you mean \"{n}\"?")).unwrap_or_default();
                 Err(NativeError::new(
                     rules::UNKNOWN_OBJECT,

@@ -35,7 +35,7 @@ pub fn run(
     if let Some(watch) = &mut context.watch {
         watch.begin();
     }
-    if context.heap.wants_collection() {
+    if context.heap.needs_collection() {
         // The values that the last run left in registers are no longer needed.
         context.values.clear();
         context.collect(input);
@@ -237,7 +237,7 @@ impl Machine<'_> {
         }
     }
 
-    /// Applies a function of `Math`. The arguments are copied behind all registers, where there is free space.
+    /// Applies a function of `Math`. The arguments are copied to the free space after all registers.
     #[inline(always)]
     fn apply_math(&mut self, dst: Num, function: math::MathFunction, args: &[u32], f: RegisterFrame) {
         let numbers = &mut self.context.numbers;
@@ -321,7 +321,7 @@ impl Machine<'_> {
 
     /// Frees objects to which no register and no variable refers, if enough memory was allocated.
     pub(super) fn collect_garbage(&mut self) {
-        if self.context.heap.wants_collection() {
+        if self.context.heap.needs_collection() {
             self.context.collect(self.input);
         }
     }

@@ -1,10 +1,10 @@
 //! Recommendations: which settings are inferior, because another one is both more accurate and cheaper, and which one to use.
 
-use super::case::LeftOut;
+use super::case::OmittedNumber;
 use super::case::REPEATED_NUMBER;
 use super::judge::Compared;
 use super::numbers::milliseconds;
-use super::report::{Advice, Kind, PrecisionResults, PrecisionRow};
+use super::report::{Advice, AdviceKind, PrecisionResults, PrecisionRow};
 use super::run_record::RunStatus;
 use labspec::run::two_digits;
 
@@ -57,7 +57,11 @@ pub(super) fn advise(report: &PrecisionResults) -> Vec<Advice> {
     let own_row = rows.iter().position(|r| r.is_own);
     let mut list = Vec::new();
     if let Some(own_row) = own_row {
-        list.push(Advice { kind: Kind::LabSetting, row: own_row, text: describe_own_error(report, own_row) });
+        list.push(Advice {
+            kind: AdviceKind::LabSetting,
+            row: own_row,
+            text: describe_own_error(report, own_row),
+        });
         list.extend(closer_for_same_work(rows, &usable, own_row));
     }
     let correct = usable.iter().copied().filter(|&i| reliable(rows, i) <= 1.0);
@@ -84,7 +88,7 @@ fn closer_for_same_work(rows: &[PrecisionRow], usable: &[usize], own_row: usize)
         format!("{} times closer", two_digits(times))
     };
     let text = format!("{} is {how} and takes {}.", name(&rows[i]), relative_work(&rows[i], &rows[own_row]));
-    Some(Advice { kind: Kind::Closer, row: i, text })
+    Some(Advice { kind: AdviceKind::Closer, row: i, text })
 }
 
 /// The cheapest setting that displays every number correctly.
@@ -101,7 +105,7 @@ fn cheapest_correct(report: &PrecisionResults, own_row: Option<usize>, i: usize)
             format!("The cheapest tested setting that shows {every} correctly is {}{time}.", name(&rows[i]))
         }
     };
-    Advice { kind: Kind::Right, row: i, text }
+    Advice { kind: AdviceKind::Right, row: i, text }
 }
 
 /// The most accurate setting, if none displays every number correctly, or if that is unknown.
@@ -126,15 +130,15 @@ fn closest(report: &PrecisionResults, usable: &[usize]) -> Option<Advice> {
         ),
         _ => format!("No tested setting shows {every} correctly; the closest is {}.", name(&rows[i])),
     };
-    Some(Advice { kind: Kind::Closest, row: i, text })
+    Some(Advice { kind: AdviceKind::Closest, row: i, text })
 }
 
 /// The meaning of "every number" in this comparison.
 fn every(report: &PrecisionResults) -> String {
-    let again = |o: &&LeftOut| o.reason != REPEATED_NUMBER;
+    let again = |o: &&OmittedNumber| o.reason != REPEATED_NUMBER;
     let compared = report.targets.iter().filter(|t| t.is_compared());
     let until = compared.filter_map(|t| t.until).reduce(f64::min);
-    let some = report.left_out.iter().any(|o| again(&o)) || report.targets.iter().any(|t| !t.is_compared());
+    let some = report.omitted.iter().any(|o| again(&o)) || report.targets.iter().any(|t| !t.is_compared());
     match until {
         Some(t) => format!("every compared number (until {} s)", labspec::run::time(t)),
         None if some => "every compared number".to_string(),

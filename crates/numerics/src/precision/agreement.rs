@@ -4,19 +4,19 @@ use super::case::PrecisionCase;
 use super::event_finder::EventThresholds;
 use super::event_time::EventTime;
 use super::numbers::range;
-use super::run_record::{Run, RunRequest, RunStatus};
+use super::run_record::{RecordRequest, RunStatus, SampledRun};
 use super::setting::Setting;
 use labspec::run::RunError;
 use labspec::run::{INTEGRATORS, Integrator};
 
 /// The reference solution, as far as it is known.
-pub(super) struct Reference {
+pub(super) struct ReferenceSolution {
     /// The values of each target at the samples.
     pub(super) values: Vec<Vec<f64>>,
     /// The uncertainty of each value, from the largest difference of the two families so far.
     pub(super) uncertain: Vec<Vec<f64>>,
     /// The run from which energy and penetration depth are taken.
-    pub(super) run: Run,
+    pub(super) run: SampledRun,
     /// The uncertainty of the penetration depth, m.
     pub(super) depth_doubt: f64,
     /// The times of the first contact, of zero crossings and of turning points.
@@ -57,8 +57,8 @@ pub(super) fn run(
     case: &PrecisionCase<'_>,
     id: i32,
     timestep: f64,
-    ask: RunRequest<'_>,
-) -> Result<Option<Run>, RunError> {
+    ask: RecordRequest<'_>,
+) -> Result<Option<SampledRun>, RunError> {
     let seen = case.run(&Setting { integrator: method(id), timestep, solver: None }, ask)?;
     Ok(matches!(seen.status, RunStatus::Good | RunStatus::Warned).then_some(seen))
 }
@@ -82,9 +82,9 @@ pub(super) fn agreed(
         let value = target.and_then(|list| list.get(sample.min(list.len().saturating_sub(1))));
         let moved = value.map_or(0.0, |u| u / a.slope.min(b.slope).max(f64::MIN_POSITIVE));
         // The shift of a turning point shows only in the difference.
-        let apart = if i > n { 4.0 } else { 2.0 } * (a.at - b.at).abs();
+        let difference = if i > n { 4.0 } else { 2.0 } * (a.at - b.at).abs();
         let rounding = f64::EPSILON * (8.0 + steps.sqrt()) * a.at;
-        let uncertainty = apart + a.uncertainty + b.uncertainty + moved + rounding;
+        let uncertainty = difference + a.uncertainty + b.uncertainty + moved + rounding;
         // If the difference is NaN, the event is unknown.
         match uncertainty <= UNKNOWN * case.length() && a.top == b.top {
             true => KnownEvent { at: a.at, uncertainty, top: a.top },
@@ -110,10 +110,10 @@ pub(super) fn so_far<'a>(pairs: impl Iterator<Item = (&'a Vec<f64>, &'a Vec<f64>
 
 /// The largest difference of the two families, relative to the range of the quantity.
 pub(super) fn largest_relative_difference(values: &[Vec<f64>], uncertain: &[Vec<f64>]) -> f64 {
-    let of = |(values, uncertain): (&Vec<f64>, &Vec<f64>)| {
+    let relative_error = |(values, uncertain): (&Vec<f64>, &Vec<f64>)| {
         uncertain.last().copied().unwrap_or(0.0) / range(values).max(f64::MIN_POSITIVE)
     };
-    values.iter().zip(uncertain).map(of).fold(0.0, f64::max)
+    values.iter().zip(uncertain).map(relative_error).fold(0.0, f64::max)
 }
 
 /// Whether two families agree up to a part of the range, or up to rounding.

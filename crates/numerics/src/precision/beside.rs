@@ -1,15 +1,15 @@
 //! Recorded runs of the same lab by another program. Its errors and times are listed next to ours, but do not influence them.
 
-use super::agreement::Reference;
+use super::agreement::ReferenceSolution;
 use super::case::PrecisionCase;
 use super::judge::{self, Compared, Errors};
-use super::run_record::Run;
+use super::run_record::SampledRun;
 use labspec::run::RunError;
 use serde_json::Value;
 
 /// The recording of another program.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Recording {
+pub struct OtherRecording {
     /// The program and its version.
     pub engine: String,
     traces: Vec<String>,
@@ -48,14 +48,14 @@ pub struct Beside {
     pub rows: Vec<BesideRow>,
 }
 
-impl Recording {
+impl OtherRecording {
     /// Reads a recording: `{"engine", "traces": [labels], "times": [s], "rows": [{"integrator", "timestep",
     /// "microsecondsPerSecond", "values": [[number of each time] of each trace]}]}`. A run whose timestep exceeds the spacing
     /// of the times has only the values at times that its steps meet.
     ///
     /// # Errors
     /// States in words what is missing or has the wrong type.
-    pub fn read(text: &str) -> Result<Recording, String> {
+    pub fn read(text: &str) -> Result<OtherRecording, String> {
         let value: Value = serde_json::from_str(text).map_err(|e| format!("it is not JSON: {e}"))?;
         let list = |value: &Value, key: &str| {
             value.get(key).and_then(Value::as_array).cloned().ok_or_else(|| format!("it has no list `{key}`"))
@@ -69,8 +69,8 @@ impl Recording {
             let values: Vec<Vec<f64>> = list(row, "values")?.iter().map(of_trace).collect();
             let timestep = number(row.get("timestep"));
             // A run with longer steps meets fewer of the times.
-            let apart = times.get(1).map_or(1.0, |first| (timestep / first).round().max(1.0));
-            let met = times.len().saturating_sub(1) / apart as usize + 1;
+            let stride = times.get(1).map_or(1.0, |first| (timestep / first).round().max(1.0));
+            let met = times.len().saturating_sub(1) / stride as usize + 1;
             if values.len() != traces.len() || values.iter().any(|v| v.len() != met) {
                 return Err("a run lacks a value of a trace at one of its times".to_string());
             }
@@ -80,7 +80,7 @@ impl Recording {
         };
         let runs = list(&value, "rows")?.iter().map(run).collect::<Result<Vec<_>, _>>()?;
         let engine = value.get("engine").map_or(Err("it has no `engine`".to_string()), words)?;
-        Ok(Recording { engine, traces, times, runs })
+        Ok(OtherRecording { engine, traces, times, runs })
     }
 
     /// Compares its runs with the same reference solution as ours.
@@ -90,7 +90,7 @@ impl Recording {
     pub(super) fn judge(
         &self,
         case: &PrecisionCase<'_>,
-        truth: &Reference,
+        truth: &ReferenceSolution,
         targets: &[Compared],
     ) -> Result<Beside, RunError> {
         let same = |k: usize, t: f64| (t - k as f64 * case.interval).abs() <= 1e-9 * (1.0 + t);
@@ -109,10 +109,10 @@ impl Recording {
         let rows = self.runs.iter().map(|run| {
             let values = places.iter().map(|&i| run.values[i].clone()).collect();
             // A closed form is evaluated with the reference run, because it depends only on time.
-            let apart = case.sampling_plan(run.timestep).stride;
-            let met = |list: &Vec<f64>| list.iter().step_by(apart).copied().collect();
+            let stride = case.sampling_plan(run.timestep).stride;
+            let met = |list: &Vec<f64>| list.iter().step_by(stride).copied().collect();
             let exact = truth.run.exact.iter().map(met).collect();
-            let seen = Run { values, exact, ..Run::default() };
+            let seen = SampledRun { values, exact, ..SampledRun::default() };
             BesideRow {
                 integrator: run.integrator.clone(),
                 timestep: run.timestep,
@@ -140,7 +140,7 @@ mod tests {
             ),
             (r#"{"traces": [], "times": [], "rows": []}"#, "it has no `engine`"),
         ] {
-            let error = Recording::read(text).unwrap_err();
+            let error = OtherRecording::read(text).unwrap_err();
             assert!(error.contains(what), "{text}: {error}");
         }
     }

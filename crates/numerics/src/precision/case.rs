@@ -3,7 +3,7 @@
 use super::event_finder::EventFinder;
 use super::integrator_work::integrator_work;
 use super::jumps;
-use super::run_record::{EnergySampler, Run, RunRequest, SamplingPlan};
+use super::run_record::{EnergySampler, RecordRequest, SampledRun, SamplingPlan};
 use super::setting::Setting;
 use labspec::bind::{
     Bound, ControlProgram, ModelNames, Programs, Scope, dimensions, include, of_label, to_finding,
@@ -57,7 +57,7 @@ impl DisplayPrecision {
 
 /// Something that is not compared, with the reason.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct LeftOut {
+pub struct OmittedNumber {
     /// Its label.
     pub label: String,
     /// The reason.
@@ -73,7 +73,7 @@ pub(super) struct PrecisionCase<'a> {
     pub(super) model: &'a Model,
     pub(super) programs: &'a Programs,
     pub(super) targets: Vec<ComparedNumber<'a>>,
-    pub(super) left_out: Vec<LeftOut>,
+    pub(super) omitted: Vec<OmittedNumber>,
     pub(super) set: &'a [(String, Value)],
     /// Buttons and the times at which they are pressed, s.
     pub(super) presses: Vec<(usize, f64)>,
@@ -112,7 +112,7 @@ impl<'a> PrecisionCase<'a> {
             model,
             programs,
             targets: Vec::new(),
-            left_out: Vec::new(),
+            omitted: Vec::new(),
             set,
             presses: Vec::new(),
             access: programs.access,
@@ -170,7 +170,7 @@ impl<'a> PrecisionCase<'a> {
             self.targets.push(ComparedNumber { label: label.to_string(), unit, bound, exact, display });
             return;
         };
-        self.left_out.push(LeftOut { label: label.to_string(), reason });
+        self.omitted.push(OmittedNumber { label: label.to_string(), reason });
     }
 
     /// Whether a program runs at every step. Its controls are constant during a step, so that the timestep is
@@ -230,7 +230,7 @@ impl<'a> PrecisionCase<'a> {
     }
 
     /// Runs the lab with a setting.
-    pub(super) fn run(&self, setting: &Setting, request: RunRequest<'_>) -> Result<Run, RunError> {
+    pub(super) fn run(&self, setting: &Setting, request: RecordRequest<'_>) -> Result<SampledRun, RunError> {
         let mut session = self.start(Some(setting))?;
         if request.perturbation != 0.0 {
             let perturbation = request.perturbation;
@@ -238,24 +238,24 @@ impl<'a> PrecisionCase<'a> {
         }
         let sampling_plan = self.sampling_plan(setting.timestep);
         let steps = sampling_plan.count * sampling_plan.steps;
-        let mut record = Run::with_capacity(self.targets.len(), sampling_plan.count + 1);
+        let mut record = SampledRun::with_capacity(self.targets.len(), sampling_plan.count + 1);
         let mut energy = EnergySampler::new(&session.world.model);
         let mut finder = request.sought.map(|s| EventFinder::new(s, &session.world.model, setting));
         let evaluate = |session: &mut Session<'_>, i: usize| self.value(session, i);
         let every = sampling_plan.count.div_ceil(CONSERVATION_SAMPLES).max(1);
         let before = session.spent();
         let mut sampling = 0;
-        let mut now = vec![0.0; self.targets.len()];
+        let mut current = vec![0.0; self.targets.len()];
         let sample = |session: &mut Session<'_>, made: usize| {
             let began = session.spent();
             let sampled = made.is_multiple_of(sampling_plan.steps);
             if request.fresh && made > 0 {
                 session.refresh();
             }
-            self.sample_targets(session, &mut now, sampled.then_some(&mut record));
+            self.sample_targets(session, &mut current, sampled.then_some(&mut record));
             record.observe(session);
             if let Some(finder) = &mut finder {
-                finder.observe_step(session, &now, &evaluate);
+                finder.observe_step(session, &current, &evaluate);
             }
             if sampled && (made / sampling_plan.steps).is_multiple_of(every) {
                 energy.sample(session, &mut record);
@@ -286,11 +286,16 @@ impl<'a> PrecisionCase<'a> {
     }
 
     /// Evaluates all targets. At a sample, the values are recorded, together with those of the closed forms.
-    fn sample_targets(&self, session: &mut Session<'_>, now: &mut [f64], mut record: Option<&mut Run>) {
+    fn sample_targets(
+        &self,
+        session: &mut Session<'_>,
+        current: &mut [f64],
+        mut record: Option<&mut SampledRun>,
+    ) {
         for (i, target) in self.targets.iter().enumerate() {
-            now[i] = self.value(session, i);
+            current[i] = self.value(session, i);
             if let Some(record) = &mut record {
-                record.values[i].push(now[i]);
+                record.values[i].push(current[i]);
                 let exact = target.exact.as_ref().and_then(|b| session.evaluate(&b.program, &b.text));
                 record.exact[i].push(exact.map_or(f64::NAN, |v| v.to_number()));
             }

@@ -26,13 +26,13 @@ pub(super) fn turning_point(
     let at: Vec<f64> = (0..count).map(|j| direction * bench.value(j, 0.0, target, evaluate)).collect();
     // A displayed value may belong to the previous state.
     let middle = (1..count - 1).max_by(|&a, &b| at[a].total_cmp(&at[b]))?;
-    let [before, now, after] = [at.get(middle + 1)?, at.get(middle)?, at.get(middle - 1)?];
+    let [before, current, after] = [at.get(middle + 1)?, at.get(middle)?, at.get(middle - 1)?];
     let (h, next) = (bench.history.step(middle + 1), bench.history.step(middle));
     let start = bench.history.time(middle + 1);
     let top = direction > 0.0;
     let parabola = || {
         // Divided differences. The steps of a run have equal lengths up to rounding.
-        let (rise, fall) = ((now - before) / h, (after - now) / next);
+        let (rise, fall) = ((current - before) / h, (after - current) / next);
         let curvature = (fall - rise) / (0.5 * (h + next));
         let x = 0.5 * h - rise / curvature;
         let at = start + if x.is_finite() { x.clamp(0.0, h + next) } else { h };
@@ -91,12 +91,12 @@ fn turn(values: &[f64]) -> Option<(f64, f64)> {
 fn coefficients(values: &[f64]) -> Vec<f64> {
     let n = values.len() - 1;
     let weight = |i: usize| if i == 0 || i == n { 0.5 } else { 1.0 };
-    let of = |j: usize| {
+    let coefficient = |j: usize| {
         let terms = values.iter().enumerate();
         let sum: f64 = terms.map(|(i, v)| weight(i) * v * (PI * (i * j) as f64 / n as f64).cos()).sum();
         2.0 / n as f64 * weight(j) * sum
     };
-    (0..=n).map(of).collect()
+    (0..=n).map(coefficient).collect()
 }
 
 /// The series of the derivative.

@@ -1,14 +1,14 @@
 //! The comparison: the reference, a run with every setting, and the report.
 
-use super::agreement::Reference;
-use super::case::{LeftOut, PrecisionCase};
+use super::agreement::ReferenceSolution;
+use super::case::{OmittedNumber, PrecisionCase};
 use super::conserved::{Conserved, change};
 use super::events::{self, Event};
 use super::judge::{self, Compared, Errors};
 use super::ladder::Ladder;
 use super::report::{PrecisionOptions, PrecisionResults, PrecisionRow};
 use super::run_cost::{self, RunCost};
-use super::run_record::{RunRequest, RunStatus};
+use super::run_record::{RecordRequest, RunStatus};
 use super::setting::Setting;
 use super::{advice, orders, reference};
 use labspec::bind::Programs;
@@ -40,14 +40,15 @@ pub fn compare(
     let settings = ladder.settings(options);
     let Some(truth) = truth else { return without_reference(case, &settings, &ladder) };
     let mine = Setting { integrator: ladder.integrator, timestep: ladder.timestep, solver: None };
-    let mine = case.run(&mine, RunRequest::default())?;
+    let mine = case.run(&mine, RecordRequest::default())?;
     let targets = judge::compared(&case, &truth, &mine);
     let blank = targets.iter().filter(|t| t.blank);
-    case.left_out
-        .extend(blank.map(|t| LeftOut { label: t.label.clone(), reason: "it is not a number at the start" }));
+    case.omitted.extend(
+        blank.map(|t| OmittedNumber { label: t.label.clone(), reason: "it is not a number at the start" }),
+    );
     let horizon = targets.iter().filter_map(|t| t.until).reduce(f64::min);
     let part = horizon.map_or(1.0, |t| t / case.length().max(f64::MIN_POSITIVE));
-    let judge = Comparison {
+    let judge = ComparisonData {
         case: &case,
         ladder: &ladder,
         truth: &truth,
@@ -60,7 +61,7 @@ pub fn compare(
     orders::observe_orders(&mut rows, &judge.targets, !truth.jumps && horizon.is_none());
     report_progress("run times");
     measure_run_times(&case, &mut rows);
-    let Comparison { conserved, events, targets, .. } = judge;
+    let ComparisonData { conserved, events, targets, .. } = judge;
     let known_to_end = |x: f64| if horizon.is_none() { x } else { f64::NAN };
     let mut report = PrecisionResults {
         nearby: horizon.map(|_| events::nearby(&case, &targets, ladder.timestep)).transpose()?,
@@ -68,7 +69,7 @@ pub fn compare(
         events,
         length: case.length(),
         samples: case.count,
-        left_out: case.left_out,
+        omitted: case.omitted,
         energy: conserved.energy,
         momentum: conserved.momentum,
         penetration: known_to_end(truth.run.penetration),
@@ -85,7 +86,10 @@ pub fn compare(
 }
 
 /// The reference with the densest samples for which it can be computed.
-fn find_reference(case: &mut PrecisionCase<'_>, ladder: &Ladder) -> Result<Option<Reference>, RunError> {
+fn find_reference(
+    case: &mut PrecisionCase<'_>,
+    ladder: &Ladder,
+) -> Result<Option<ReferenceSolution>, RunError> {
     for samples in ladder.samplings() {
         (case.interval, case.count) = samples;
         let reference = reference::reference(case, ladder.timestep)?;
@@ -108,7 +112,7 @@ fn measure_run_times(case: &PrecisionCase<'_>, rows: &mut [PrecisionRow]) {
 /// Checks that the lab can be compared, and moves presses to times at which the steps of all settings meet.
 fn prepare(case: &mut PrecisionCase<'_>, options: &PrecisionOptions) -> Result<Ladder, RunError> {
     if case.targets.is_empty() {
-        let why = match case.left_out.first() {
+        let why = match case.omitted.first() {
             Some(out) => {
                 format!(": \"{}\" is skipped, because {}", labspec::report::printable(&out.label), out.reason)
             }
@@ -139,10 +143,10 @@ fn prepare(case: &mut PrecisionCase<'_>, options: &PrecisionOptions) -> Result<L
 }
 
 /// The data with which runs are compared.
-struct Comparison<'j, 'a> {
+struct ComparisonData<'j, 'a> {
     case: &'j PrecisionCase<'a>,
     ladder: &'j Ladder,
-    truth: &'j Reference,
+    truth: &'j ReferenceSolution,
     targets: Vec<Compared>,
     events: Vec<Event>,
     conserved: Conserved,
@@ -150,7 +154,7 @@ struct Comparison<'j, 'a> {
     part: f64,
 }
 
-impl Comparison<'_, '_> {
+impl ComparisonData<'_, '_> {
     /// Runs all settings, and for each method also longer timesteps, until a visible error appears.
     fn rows(
         &self,
@@ -163,22 +167,23 @@ impl Comparison<'_, '_> {
                 break;
             }
             report_progress(&format!("setting {} of {}: {}", i + 1, settings.len(), setting.integrator.name));
-            let mut now = vec![self.row(setting)?];
+            let mut current = vec![self.row(setting)?];
             let begins = rows.last().is_none_or(|r| r.setting.integrator != setting.integrator);
             let longest = begins && setting.solver.is_none() && setting.timestep == self.ladder.coarse();
             while longest
-                && now.last().is_some_and(|r| r.status == RunStatus::Good && r.score <= 1.0)
-                && let Some(step) = now.last().and_then(|r| self.ladder.longer(r.setting.timestep, self.case))
+                && current.last().is_some_and(|r| r.status == RunStatus::Good && r.score <= 1.0)
+                && let Some(step) =
+                    current.last().and_then(|r| self.ladder.longer(r.setting.timestep, self.case))
             {
-                now.push(self.row(&Setting { timestep: step, ..*setting })?);
+                current.push(self.row(&Setting { timestep: step, ..*setting })?);
             }
-            rows.extend(now.into_iter().rev());
+            rows.extend(current.into_iter().rev());
         }
         Ok(rows)
     }
 
     fn row(&self, setting: &Setting) -> Result<PrecisionRow, RunError> {
-        let ask = RunRequest { sought: Some(&self.truth.sought), ..RunRequest::default() };
+        let ask = RecordRequest { sought: Some(&self.truth.sought), ..RecordRequest::default() };
         let run = self.case.run(setting, ask)?;
         let errors = judge::errors(self.case, self.truth, &self.targets, &run, setting.timestep);
         let score = match run.status {
@@ -215,7 +220,7 @@ fn without_reference(
 ) -> Result<PrecisionResults, RunError> {
     let mut rows = Vec::new();
     for setting in settings {
-        let run = case.run(setting, RunRequest::default())?;
+        let run = case.run(setting, RecordRequest::default())?;
         rows.push(PrecisionRow {
             setting: *setting,
             is_own: ladder.is_own(setting),
@@ -235,7 +240,7 @@ fn without_reference(
         reference: None,
         length: case.length(),
         samples: case.count,
-        left_out: case.left_out,
+        omitted: case.omitted,
         beside: None,
         rows,
         events: Vec::new(),

@@ -1,6 +1,6 @@
 //! The conserved energy and momentum of a scene, and how much of them a run loses or gains.
 
-use super::run_record::Run;
+use super::run_record::SampledRun;
 
 /// A quantity counts as conserved if the reference changes it by less than this part of its size.
 const CONSERVED: f64 = 1e-7;
@@ -12,7 +12,7 @@ pub(super) struct Conserved {
 }
 
 impl Conserved {
-    pub(super) fn measure(run: &Run, part: f64) -> Conserved {
+    pub(super) fn measure(run: &SampledRun, part: f64) -> Conserved {
         let moves = run.kinetic > 0.0;
         let energy = (moves && change(&run.energy, part) <= CONSERVED * run.kinetic).then_some(run.kinetic);
         let none = Conserved { energy: None, momentum: [None; 2] };
@@ -24,13 +24,13 @@ impl Conserved {
     }
 
     /// The largest change of momentum since the start: linear (0) or angular (1).
-    pub(super) fn change(&self, run: &Run, k: usize, part: f64) -> f64 {
+    pub(super) fn change(&self, run: &SampledRun, k: usize, part: f64) -> f64 {
         let Some(start) = run.momentum.first() else { return f64::NAN };
-        let apart = |p: &[f64; 6]| {
+        let change = |p: &[f64; 6]| {
             let d: [f64; 3] = std::array::from_fn(|i| p[3 * k + i] - start[3 * k + i]);
             length(&d)
         };
-        largest(run.momentum.iter().take(samples_in_part(run.momentum.len(), part)).map(apart))
+        largest(run.momentum.iter().take(samples_in_part(run.momentum.len(), part)).map(change))
     }
 }
 

@@ -178,16 +178,16 @@ impl<'s> EventFinder<'s> {
         !self.touching.is_empty()
     }
 
-    fn observe_crossing(&mut self, i: usize, now: f64, session: &Session<'_>, evaluate: &Evaluate<'_>) {
+    fn observe_crossing(&mut self, i: usize, current: f64, session: &Session<'_>, evaluate: &Evaluate<'_>) {
         let (Some(p), Some([least, _])) = (self.passages.get_mut(i), self.sought.least.get(i)) else {
             return;
         };
-        let last = std::mem::replace(&mut p.last, now);
-        if p.done || !now.is_finite() {
+        let last = std::mem::replace(&mut p.last, current);
+        if p.done || !current.is_finite() {
             return;
         }
-        let crossed = p.side != 0.0 && now * p.side <= 0.0 && last * p.side > 0.0;
-        if p.side != 0.0 && now * p.side > 0.0 {
+        let crossed = p.side != 0.0 && current * p.side <= 0.0 && last * p.side > 0.0;
+        if p.side != 0.0 && current * p.side > 0.0 {
             p.candidate = EventTime::NONE;
         }
         if crossed {
@@ -195,36 +195,36 @@ impl<'s> EventFinder<'s> {
             let mut bench = StepReplay::new(session, &self.history);
             let found = crossing_time(&mut bench, i, side, evaluate);
             let Some(p) = self.passages.get_mut(i) else { return };
-            p.candidate = found.unwrap_or_else(|| between(&self.history, last, now));
+            p.candidate = found.unwrap_or_else(|| between(&self.history, last, current));
         }
         let Some(p) = self.passages.get_mut(i) else { return };
-        if now.abs() > *least {
-            p.done = p.side != 0.0 && now.signum() != p.side;
-            p.side = now.signum();
+        if current.abs() > *least {
+            p.done = p.side != 0.0 && current.signum() != p.side;
+            p.side = current.signum();
         }
     }
 
-    fn turn(&mut self, i: usize, now: f64, session: &Session<'_>, evaluate: &Evaluate<'_>) {
+    fn turn(&mut self, i: usize, current: f64, session: &Session<'_>, evaluate: &Evaluate<'_>) {
         let (Some(t), Some([_, least])) = (self.turns.get_mut(i), self.sought.least.get(i)) else { return };
-        let last = std::mem::replace(&mut t.last, now);
-        if t.done || !now.is_finite() {
+        let last = std::mem::replace(&mut t.last, current);
+        if t.done || !current.is_finite() {
             return;
         }
         // The last sample was the extreme value so far, and the number has turned back.
         let extreme = if t.direction > 0.0 { t.high } else { t.low };
-        let begins = t.direction != 0.0 && last == extreme && (now - last) * t.direction < 0.0;
-        (t.low, t.high) = (t.low.min(now), t.high.max(now));
+        let begins = t.direction != 0.0 && last == extreme && (current - last) * t.direction < 0.0;
+        (t.low, t.high) = (t.low.min(current), t.high.max(current));
         if t.direction == 0.0 {
-            t.direction = if now - t.low > *least {
+            t.direction = if current - t.low > *least {
                 1.0
-            } else if t.high - now > *least {
+            } else if t.high - current > *least {
                 -1.0
             } else {
                 0.0
             };
             return;
         }
-        let back = if t.direction > 0.0 { t.high - now } else { now - t.low };
+        let back = if t.direction > 0.0 { t.high - current } else { current - t.low };
         let (direction, looks) = (t.direction, t.looks);
         if begins {
             t.looks += 1;
@@ -281,20 +281,20 @@ fn length(v: [f64; 3]) -> f64 {
 }
 
 /// The penetration depth of bodies that were apart at the start, m; NaN if none are near each other.
-fn depth(session: &Session<'_>, apart: &[[usize; 2]]) -> f64 {
+fn depth(session: &Session<'_>, touching: &[[usize; 2]]) -> f64 {
     let contacts = session.world.data.fields().contact.iter();
-    let others = contacts.filter(|c| !apart.contains(&[c.geom1, c.geom2]));
+    let others = contacts.filter(|c| !touching.contains(&[c.geom1, c.geom2]));
     others.map(|c| -c.dist).fold(f64::NAN, f64::max)
 }
 
 /// A zero crossing between the last two samples, by linear interpolation.
-fn between(history: &StepHistory, last: f64, now: f64) -> EventTime {
+fn between(history: &StepHistory, last: f64, current: f64) -> EventTime {
     let h = history.step(1);
-    let part = (last / (last - now)).clamp(0.0, 1.0);
+    let part = (last / (last - current)).clamp(0.0, 1.0);
     EventTime {
         at: history.time(1) + part * h,
         uncertainty: 2.0 * h,
-        slope: (now - last).abs() / h,
+        slope: (current - last).abs() / h,
         top: false,
     }
 }

@@ -1,9 +1,9 @@
 //! The events of the reference, the timing errors of other runs, and how long runs with nearby starts stay together.
 
-use super::agreement::{KnownEvent, Reference, method};
+use super::agreement::{KnownEvent, ReferenceSolution, method};
 use super::case::PrecisionCase;
 use super::judge::Compared;
-use super::run_record::{Run, RunRequest};
+use super::run_record::{RecordRequest, SampledRun};
 use super::setting::Setting;
 use labspec::run::RunError;
 use labspec_core::integrator;
@@ -28,13 +28,18 @@ pub struct Event {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct NearbyStarts {
     /// The distance of the starts, in the unit of each coordinate.
-    pub apart: f64,
+    #[serde(rename = "apart")]
+    pub distance: f64,
     /// The time until which all numbers agree within a hundredth of their ranges, s; `None` if they agree to the end.
     pub until: Option<f64>,
 }
 
 /// The events of the reference before its horizon.
-pub(super) fn events(case: &PrecisionCase<'_>, truth: &Reference, targets: &[Compared]) -> Vec<Event> {
+pub(super) fn events(
+    case: &PrecisionCase<'_>,
+    truth: &ReferenceSolution,
+    targets: &[Compared],
+) -> Vec<Event> {
     let n = case.targets.len();
     let all = targets.iter().filter_map(|t| t.until).reduce(f64::min);
     let contact = if truth.run.touching { "first new contact" } else { "first contact" };
@@ -62,7 +67,7 @@ pub(super) fn events(case: &PrecisionCase<'_>, truth: &Reference, targets: &[Com
 }
 
 /// The timing errors of a run's events, s; never smaller than the uncertainty of the event.
-pub(super) fn timing_errors(run: &Run, events: &[Event]) -> Vec<f64> {
+pub(super) fn timing_errors(run: &SampledRun, events: &[Event]) -> Vec<f64> {
     let off = |(i, event): (usize, &Event)| {
         let found = run.moments.get(i).map_or(f64::NAN, |m| m.at);
         let off = (found - event.time).abs();
@@ -79,8 +84,8 @@ pub(super) fn nearby(
 ) -> Result<NearbyStarts, RunError> {
     let setting = Setting { integrator: method(integrator::RKMK8), timestep: timestep / 2.0, solver: None };
     let (one, other) = (
-        case.run(&setting, RunRequest::REFERENCE_REQUEST)?,
-        case.run(&setting, RunRequest { perturbation: PERTURBATION, ..RunRequest::REFERENCE_REQUEST })?,
+        case.run(&setting, RecordRequest::REFERENCE_REQUEST)?,
+        case.run(&setting, RecordRequest { perturbation: PERTURBATION, ..RecordRequest::REFERENCE_REQUEST })?,
     );
     let leaves = |((a, b), target): ((&Vec<f64>, &Vec<f64>), &Compared)| {
         let far = LEFT * target.range;
@@ -88,6 +93,6 @@ pub(super) fn nearby(
         a.iter().zip(b).position(|(a, b)| (a - b).abs() > far || (a - b).is_nan())
     };
     let first = one.values.iter().zip(&other.values).zip(targets).filter_map(leaves).min();
-    let apart = case.sampling_plan(setting.timestep).stride as f64 * case.interval;
-    Ok(NearbyStarts { apart: PERTURBATION, until: first.map(|i| i as f64 * apart) })
+    let interval = case.sampling_plan(setting.timestep).stride as f64 * case.interval;
+    Ok(NearbyStarts { distance: PERTURBATION, until: first.map(|i| i as f64 * interval) })
 }

@@ -3,12 +3,14 @@
 //! Hairer, Nørsett and Wanner 1993, *Solving Ordinary Differential Equations I*, section II.9). Steps in which controls
 //! jump are split at the jump.
 
-use super::agreement::{Reference, agree, agreed, largest_relative_difference, run, so_far, too_long};
+use super::agreement::{
+    ReferenceSolution, agree, agreed, largest_relative_difference, run, so_far, too_long,
+};
 use super::case::PrecisionCase;
 use super::event_finder::EventThresholds;
 use super::event_time::EventTime;
 use super::numbers::milliseconds;
-use super::run_record::{Run, RunRequest};
+use super::run_record::{RecordRequest, SampledRun};
 use labspec::run::RunError;
 use labspec_core::integrator;
 
@@ -25,7 +27,7 @@ struct TableEntry {
 }
 
 impl TableEntry {
-    fn from_run(run: &Run) -> TableEntry {
+    fn from_run(run: &SampledRun) -> TableEntry {
         TableEntry { values: run.values.clone(), moments: run.moments.iter().map(|m| m.at).collect() }
     }
 
@@ -47,7 +49,7 @@ struct BestEntry {
     entry: TableEntry,
     coarse: TableEntry,
     uncertain: Vec<Vec<f64>>,
-    run: Run,
+    run: SampledRun,
     step: f64,
 }
 
@@ -58,12 +60,15 @@ impl BestEntry {
 }
 
 /// Computes the reference of a lab with a controller.
-pub(super) fn extrapolated(case: &PrecisionCase<'_>, timestep: f64) -> Result<Option<Reference>, RunError> {
+pub(super) fn extrapolated(
+    case: &PrecisionCase<'_>,
+    timestep: f64,
+) -> Result<Option<ReferenceSolution>, RunError> {
     let first = (timestep / 2.0).min(case.interval);
-    let ask = RunRequest { cut: true, ..RunRequest::REFERENCE_REQUEST };
+    let ask = RecordRequest { cut: true, ..RecordRequest::REFERENCE_REQUEST };
     let Some(look) = run(case, integrator::RKMK8, first, ask)? else { return Ok(None) };
     let sought = EventThresholds::for_values(&look.values);
-    let ask = RunRequest { sought: Some(&sought), ..ask };
+    let ask = RecordRequest { sought: Some(&sought), ..ask };
     let mut before: Vec<TableEntry> = Vec::new();
     let mut best: Option<BestEntry> = None;
     let mut step = first;
@@ -71,12 +76,12 @@ pub(super) fn extrapolated(case: &PrecisionCase<'_>, timestep: f64) -> Result<Op
         if too_long(case, step) {
             break;
         }
-        let Some(now) = run(case, integrator::RKMK8, step, ask)? else { break };
-        let row = next_row(&now, &before);
+        let Some(current) = run(case, integrator::RKMK8, step, ask)? else { break };
+        let row = next_row(&current, &before);
         for (entry, coarse) in row.iter().zip(&before) {
             let uncertain = so_far(entry.values.iter().zip(&coarse.values));
             let (entry, coarse) = (entry.clone(), coarse.clone());
-            let one = BestEntry { entry, coarse, uncertain, run: now.clone(), step };
+            let one = BestEntry { entry, coarse, uncertain, run: current.clone(), step };
             if best.as_ref().is_none_or(|b| one.worst() < b.worst()) {
                 best = Some(one);
             }
@@ -92,7 +97,7 @@ pub(super) fn extrapolated(case: &PrecisionCase<'_>, timestep: f64) -> Result<Op
 }
 
 /// The next row of the table, from the row with twice the step.
-fn next_row(run: &Run, before: &[TableEntry]) -> Vec<TableEntry> {
+fn next_row(run: &SampledRun, before: &[TableEntry]) -> Vec<TableEntry> {
     let mut row = vec![TableEntry::from_run(run)];
     for (coarse, power) in before.iter().zip(1..) {
         let Some(last) = row.last() else { break };
@@ -108,9 +113,9 @@ fn finish(
     best: BestEntry,
     sought: EventThresholds,
     first: f64,
-) -> Result<Reference, RunError> {
+) -> Result<ReferenceSolution, RunError> {
     let BestEntry { entry, coarse, mut uncertain, run: mut seen, step } = best;
-    let ask = RunRequest { cut: true, ..RunRequest::REFERENCE_REQUEST };
+    let ask = RecordRequest { cut: true, ..RecordRequest::REFERENCE_REQUEST };
     let other = if too_long(case, step) { None } else { run(case, integrator::GAUSS, step, ask)? };
     if let Some(other) = &other {
         let more = so_far(seen.values.iter().zip(&other.values));
@@ -138,7 +143,7 @@ fn finish(
     let jumps = seen.jumps;
     seen.values.clone_from(&entry.values);
     let values = entry.values;
-    Ok(Reference { values, uncertain, run: seen, depth_doubt, moments, sought, jumps, how })
+    Ok(ReferenceSolution { values, uncertain, run: seen, depth_doubt, moments, sought, jumps, how })
 }
 
 #[cfg(test)]
@@ -147,8 +152,10 @@ mod tests {
 
     #[test]
     fn a_polynomial_of_the_step_is_extrapolated_to_its_constant() {
-        let run =
-            |h: f64| Run { values: vec![vec![1.0 + 3.0 * h - 2.0 * h * h + h.powi(3)]], ..Run::default() };
+        let run = |h: f64| SampledRun {
+            values: vec![vec![1.0 + 3.0 * h - 2.0 * h * h + h.powi(3)]],
+            ..SampledRun::default()
+        };
         let mut row = Vec::new();
         for k in 0..4 {
             row = next_row(&run(0.5f64.powi(k)), &row);

@@ -1,9 +1,9 @@
 //! The errors of a run relative to the reference.
 
-use super::agreement::Reference;
+use super::agreement::ReferenceSolution;
 use super::case::{ComparedNumber, DisplayPrecision, PrecisionCase};
 use super::numbers::range;
-use super::run_record::{Run, RunStatus};
+use super::run_record::{RunStatus, SampledRun};
 use labspec::run::printed;
 
 /// The errors of a number in a run, in the unit of the trace.
@@ -97,10 +97,10 @@ impl Compared {
         // Digits: a number within its uncertainty of a rounding boundary may be displayed as either neighbour.
         let slack = uncertainty + DIGITS_ROUND * self.size;
         let print = |x: f64| printed(x, self.digits);
-        let (low, now, high) = (print(exact - slack), print(displayed), print(exact + slack));
+        let (low, current, high) = (print(exact - slack), print(displayed), print(exact + slack));
         let unit = 2.0 * self.invisible_error;
         let [most, least] = parts(unit);
-        if !(low..=high).contains(&now) {
+        if !(low..=high).contains(&current) {
             return [1.0 + most, 1.0 + least];
         }
         [
@@ -123,7 +123,11 @@ const DIGITS_ROUND: f64 = 1e-12;
 const CONSTANT: f64 = 1e-6;
 
 /// Determines the truth of all targets of a case; `own_run` is the run with the lab's own setting.
-pub(super) fn compared(case: &PrecisionCase<'_>, reference: &Reference, own_run: &Run) -> Vec<Compared> {
+pub(super) fn compared(
+    case: &PrecisionCase<'_>,
+    reference: &ReferenceSolution,
+    own_run: &SampledRun,
+) -> Vec<Compared> {
     let one = |(i, target): (usize, &ComparedNumber<'_>)| {
         let closed = target.exact.is_some();
         let values = if closed { &reference.run.exact[i] } else { &reference.values[i] };
@@ -172,18 +176,18 @@ pub(super) fn compared(case: &PrecisionCase<'_>, reference: &Reference, own_run:
 /// The errors of a run with some timestep, for each target.
 pub(super) fn errors(
     case: &PrecisionCase<'_>,
-    reference: &Reference,
+    reference: &ReferenceSolution,
     targets: &[Compared],
-    run: &Run,
+    run: &SampledRun,
     timestep: f64,
 ) -> Vec<Errors> {
     // The time is a sum of this many steps, each of which is rounded.
     let rounding = f64::EPSILON * case.count as f64 * case.interval / timestep;
     let stride = case.sampling_plan(timestep).stride;
     let one = |(i, target): (usize, &Compared)| {
-        let (truth, apart) = if target.closed { (&run.exact[i], 1) } else { (&reference.values[i], stride) };
+        let (truth, step) = if target.closed { (&run.exact[i], 1) } else { (&reference.values[i], stride) };
         let compared = target.samples.div_ceil(stride).min(run.values[i].len());
-        let both = run.values[i].iter().zip(truth.iter().step_by(apart)).take(compared);
+        let both = run.values[i].iter().zip(truth.iter().step_by(step)).take(compared);
         let mut e =
             Errors { largest: 0.0, at: 0.0, rms: 0.0, samples: compared, seen: [0.0; 2], ..Errors::NONE };
         for (k, (&displayed, &exact)) in both.enumerate() {

@@ -87,14 +87,14 @@ fn advance_to_jump(
             break;
         }
         advance(session, start, middle);
-        let now = controls_now(session);
+        let current = controls_now(session);
         if session.ended().is_some() {
             return None;
         }
-        if largest_difference(&now, &at_high) > JUMP_PART * whole {
-            (low, at_low) = (middle, now);
-        } else if largest_difference(&at_low, &now) > JUMP_PART * whole {
-            (high, at_high) = (middle, now);
+        if largest_difference(&current, &at_high) > JUMP_PART * whole {
+            (low, at_low) = (middle, current);
+        } else if largest_difference(&at_low, &current) > JUMP_PART * whole {
+            (high, at_high) = (middle, current);
         } else {
             return None;
         }

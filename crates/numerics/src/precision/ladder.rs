@@ -2,7 +2,7 @@
 
 use super::case::PrecisionCase;
 use super::report::PrecisionOptions;
-use super::setting::{Setting, Solver};
+use super::setting::{Setting, SolverVariation};
 use labspec::run::{self, RunError};
 use labspec::run::{INTEGRATORS, Integrator};
 use labspec::spec::Lab;
@@ -86,7 +86,7 @@ impl Ladder {
         if !list.contains(&mine) {
             list.push(mine);
         }
-        let solver = |s: Solver| Setting { solver: Some(s), ..mine };
+        let solver = |s: SolverVariation| Setting { solver: Some(s), ..mine };
         list.extend(options.axes.iter().flat_map(|axis| axis.values()).map(solver));
         list
     }
@@ -98,7 +98,7 @@ fn samplings(count: usize, longest: f64, timestep: f64) -> impl Iterator<Item = 
     let number = move |step: f64| count * (longest / step) as usize;
     let few = move |step: &f64| number(*step) <= MOST_SAMPLES || *step == longest;
     let mut steps: Vec<f64> = STEPS.into_iter().rev().filter(|s| *s <= longest).filter(few).collect();
-    // The samples of the reference are not further apart than the steps of the lab.
+    // The reference has at least one sample per step of the lab.
     let useful = steps.iter().filter(|s| **s <= 1.0).count().max(1);
     steps.truncate(useful);
     steps.into_iter().map(move |step| {

@@ -28,13 +28,13 @@ mod run_record;
 mod setting;
 mod step_replay;
 
-pub use beside::{Beside, BesideRow, Recording};
-pub use case::LeftOut;
+pub use beside::{Beside, BesideRow, OtherRecording};
+pub use case::OmittedNumber;
 pub use compare::compare;
 pub use events::{Event, NearbyStarts};
 pub use judge::{Compared, Errors};
 pub use numbers::milliseconds;
-pub use report::{Advice, Kind, PrecisionOptions, PrecisionResults, PrecisionRow};
+pub use report::{Advice, AdviceKind, PrecisionOptions, PrecisionResults, PrecisionRow};
 pub use run_cost::RunCost;
 pub use run_record::RunStatus;
-pub use setting::{Axis, Setting, Solver};
+pub use setting::{Setting, SolverVariation, VariedSetting};

@@ -6,13 +6,13 @@
 //! of zero (`extrapolation.rs`).
 
 use super::agreement::{
-    Reference, UNKNOWN, agree, agreed, largest_relative_difference, method, run, so_far, too_long,
+    ReferenceSolution, UNKNOWN, agree, agreed, largest_relative_difference, method, run, so_far, too_long,
 };
 use super::case::PrecisionCase;
 use super::event_finder::EventThresholds;
 use super::extrapolation::extrapolated;
 use super::numbers::milliseconds;
-use super::run_record::{Run, RunRequest};
+use super::run_record::{RecordRequest, SampledRun};
 use super::setting::Setting;
 use labspec::run::RunError;
 use labspec_core::integrator;
@@ -25,7 +25,10 @@ const MAX_REFINEMENTS: usize = 5;
 ///
 /// # Errors
 /// A control cannot be set to its value.
-pub(super) fn reference(case: &PrecisionCase<'_>, timestep: f64) -> Result<Option<Reference>, RunError> {
+pub(super) fn reference(
+    case: &PrecisionCase<'_>,
+    timestep: f64,
+) -> Result<Option<ReferenceSolution>, RunError> {
     if case.controlled() { extrapolated(case, timestep) } else { direct(case, timestep) }
 }
 
@@ -34,15 +37,15 @@ type MethodStep = (i32, f64);
 
 /// Two runs that agree.
 struct AgreeingRuns {
-    reference: Reference,
+    reference: ReferenceSolution,
     methods: [MethodStep; 2],
 }
 
-fn direct(case: &PrecisionCase<'_>, timestep: f64) -> Result<Option<Reference>, RunError> {
+fn direct(case: &PrecisionCase<'_>, timestep: f64) -> Result<Option<ReferenceSolution>, RunError> {
     let mut first = None;
     for method_step in [(integrator::ADAPTIVE, case.interval), (integrator::GAUSS, timestep / 16.0)] {
         if first.is_none() && !too_long(case, method_step.1) {
-            first = run(case, method_step.0, method_step.1, RunRequest::REFERENCE_REQUEST)?
+            first = run(case, method_step.0, method_step.1, RecordRequest::REFERENCE_REQUEST)?
                 .map(|run| (method_step, run));
         }
     }
@@ -52,7 +55,7 @@ fn direct(case: &PrecisionCase<'_>, timestep: f64) -> Result<Option<Reference>, 
         if too_long(case, step) {
             break;
         }
-        let Some(second) = run(case, integrator::RKMK8, step, RunRequest::REFERENCE_REQUEST)? else {
+        let Some(second) = run(case, integrator::RKMK8, step, RecordRequest::REFERENCE_REQUEST)? else {
             // The method may fail only because the step is too long.
             if best.is_some() {
                 break;
@@ -61,7 +64,7 @@ fn direct(case: &PrecisionCase<'_>, timestep: f64) -> Result<Option<Reference>, 
             continue;
         };
         let mine = (integrator::RKMK8, step);
-        let now = match &first {
+        let current = match &first {
             Some((method_step, seen)) => {
                 let how = format!("{} and {}", in_words(*method_step), in_words(mine));
                 AgreeingRuns { reference: compare(seen.clone(), &second, how), methods: [*method_step, mine] }
@@ -69,14 +72,14 @@ fn direct(case: &PrecisionCase<'_>, timestep: f64) -> Result<Option<Reference>, 
             // Only one family succeeds: a run with half the step serves for comparison.
             None => {
                 let half = (integrator::RKMK8, step / 2.0);
-                let Some(finer) = run(case, half.0, half.1, RunRequest::REFERENCE_REQUEST)? else { break };
+                let Some(finer) = run(case, half.0, half.1, RecordRequest::REFERENCE_REQUEST)? else { break };
                 let how = format!("{}, and at twice that", in_words(half));
                 AgreeingRuns { reference: compare(finer, &second, how), methods: [half, mine] }
             }
         };
-        let agreed = agrees(&now.reference);
-        if best.as_ref().is_none_or(|b| worst(&now.reference) < worst(&b.reference)) {
-            best = Some(now);
+        let agreed = agrees(&current.reference);
+        if best.as_ref().is_none_or(|b| worst(&current.reference) < worst(&b.reference)) {
+            best = Some(current);
         }
         if agreed {
             break;
@@ -95,12 +98,13 @@ fn in_words((id, timestep): MethodStep) -> String {
 /// Repeats both runs to find their events.
 fn find_moments(case: &PrecisionCase<'_>, pair: &mut AgreeingRuns) -> Result<(), RunError> {
     let r = &mut pair.reference;
-    let mut found: Vec<Run> = Vec::new();
+    let mut found: Vec<SampledRun> = Vec::new();
     for (id, timestep) in pair.methods {
         // The other run finds the same events by then, or none.
-        let late = |run: &Run| run.settled + UNKNOWN * case.length() + 8.0 * timestep;
+        let late = |run: &SampledRun| run.settled + UNKNOWN * case.length() + 8.0 * timestep;
         let stop = found.first().map_or(f64::INFINITY, late);
-        let ask = RunRequest { sought: Some(&r.sought), stop: Some(stop), ..RunRequest::REFERENCE_REQUEST };
+        let ask =
+            RecordRequest { sought: Some(&r.sought), stop: Some(stop), ..RecordRequest::REFERENCE_REQUEST };
         let setting = Setting { integrator: method(id), timestep, solver: None };
         found.push(case.run(&setting, ask)?);
     }
@@ -113,20 +117,20 @@ fn find_moments(case: &PrecisionCase<'_>, pair: &mut AgreeingRuns) -> Result<(),
 }
 
 /// The reference from the first run, with the uncertainty given by the second.
-fn compare(mut first: Run, second: &Run, how: String) -> Reference {
+fn compare(mut first: SampledRun, second: &SampledRun, how: String) -> ReferenceSolution {
     let uncertain = so_far(first.values.iter().zip(&second.values));
     let depth_doubt = (first.penetration - second.penetration).abs();
     let jumps = first.jumps || second.jumps;
     first.penetration = second.penetration;
     let values = first.values.clone();
     let sought = EventThresholds::for_values(&values);
-    Reference { values, uncertain, run: first, depth_doubt, moments: Vec::new(), sought, jumps, how }
+    ReferenceSolution { values, uncertain, run: first, depth_doubt, moments: Vec::new(), sought, jumps, how }
 }
 
-fn worst(r: &Reference) -> f64 {
+fn worst(r: &ReferenceSolution) -> f64 {
     largest_relative_difference(&r.values, &r.uncertain)
 }
 
-fn agrees(r: &Reference) -> bool {
+fn agrees(r: &ReferenceSolution) -> bool {
     agree(&r.values, &r.uncertain, MAX_DIFFERENCE)
 }

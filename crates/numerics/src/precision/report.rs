@@ -1,12 +1,12 @@
 //! The options and the results of a comparison.
 
-use super::beside::{Beside, Recording};
-use super::case::LeftOut;
+use super::beside::{Beside, OtherRecording};
+use super::case::OmittedNumber;
 use super::events::{Event, NearbyStarts};
 use super::judge::{Compared, Errors};
 use super::run_cost::RunCost;
 use super::run_record::RunStatus;
-use super::setting::{Axis, Setting};
+use super::setting::{Setting, VariedSetting};
 use labspec::run::Integrator;
 use labspec_expr::Value;
 use serde::Serialize;
@@ -23,9 +23,9 @@ pub struct PrecisionOptions {
     /// The integrators; those of MuJoCo if empty.
     pub integrators: Vec<Integrator>,
     /// Solver settings that are varied, at the lab's own integrator and timestep.
-    pub axes: Vec<Axis>,
+    pub axes: Vec<VariedSetting>,
     /// Another program's runs of the same lab.
-    pub beside: Option<Recording>,
+    pub beside: Option<OtherRecording>,
 }
 
 /// The results of one setting.
@@ -62,7 +62,7 @@ pub struct PrecisionResults {
     /// The compared numbers.
     pub targets: Vec<Compared>,
     /// The numbers that are not compared, with the reasons.
-    pub left_out: Vec<LeftOut>,
+    pub omitted: Vec<OmittedNumber>,
     /// The reference in words; `None` if no method can simulate the lab.
     pub reference: Option<String>,
     /// The length of the runs, s.
@@ -97,7 +97,7 @@ pub struct PrecisionResults {
 pub struct Advice {
     /// The kind of recommendation.
     #[serde(skip)]
-    pub kind: Kind,
+    pub kind: AdviceKind,
     /// The row.
     pub row: usize,
     /// The sentence.
@@ -106,7 +106,7 @@ pub struct Advice {
 
 /// The kind of a recommendation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum AdviceKind {
     /// The error of the lab's own setting.
     LabSetting,
     /// The row is more accurate than the lab's own setting for the same work.

@@ -18,7 +18,7 @@ pub(super) struct SamplingPlan {
 
 /// How a run is performed, and which events are located.
 #[derive(Clone, Copy, Default)]
-pub(super) struct RunRequest<'s> {
+pub(super) struct RecordRequest<'s> {
     /// Every coordinate of the start is shifted by this.
     pub(super) perturbation: f64,
     /// Whether all displayed values belong to the current state, as in the reference. Otherwise, as on a page, values such as
@@ -33,15 +33,15 @@ pub(super) struct RunRequest<'s> {
     pub(super) stop: Option<f64>,
 }
 
-impl RunRequest<'_> {
+impl RecordRequest<'_> {
     /// The request for a run of the reference.
-    pub(super) const REFERENCE_REQUEST: RunRequest<'static> =
-        RunRequest { perturbation: 0.0, fresh: true, cut: false, sought: None, stop: None };
+    pub(super) const REFERENCE_REQUEST: RecordRequest<'static> =
+        RecordRequest { perturbation: 0.0, fresh: true, cut: false, sought: None, stop: None };
 }
 
 /// The results of a run.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Run {
+pub(super) struct SampledRun {
     /// The values of each target at the samples; `exact` are those of its closed form (NaN if there is none).
     pub(super) values: Vec<Vec<f64>>,
     pub(super) exact: Vec<Vec<f64>>,
@@ -97,11 +97,11 @@ impl RunStatus {
     }
 }
 
-impl Run {
+impl SampledRun {
     /// A run with capacity for this many targets and samples, before its start.
-    pub(super) fn with_capacity(targets: usize, samples: usize) -> Run {
+    pub(super) fn with_capacity(targets: usize, samples: usize) -> SampledRun {
         let lists = || vec![Vec::with_capacity(samples); targets];
-        Run { values: lists(), exact: lists(), ..Run::default() }
+        SampledRun { values: lists(), exact: lists(), ..SampledRun::default() }
     }
 
     /// Stores the events that were found.
@@ -156,7 +156,7 @@ impl EnergySampler {
         EnergySampler { data: Data::new(m) }
     }
 
-    pub(super) fn sample(&mut self, session: &Session<'_>, seen: &mut Run) {
+    pub(super) fn sample(&mut self, session: &Session<'_>, seen: &mut SampledRun) {
         let m = &session.world.model;
         // Both data belong to the same model, so this cannot fail.
         let _ = state::copy(m, &session.world.data, &mut self.data, state::INTEGRATION);
@@ -166,12 +166,12 @@ impl EnergySampler {
         let d = &mut self.data;
         let moving = core::forward(m, d).and_then(|()| core::subtree_vel(m, d));
         let mut momentum = [f64::NAN; 6];
-        let of = |list: &[f64], k: usize| list.get(k).copied().unwrap_or(f64::NAN);
+        let value_at = |list: &[f64], k: usize| list.get(k).copied().unwrap_or(f64::NAN);
         if moving.is_ok() {
-            let mass = of(&m.body_subtreemass, 0);
+            let mass = value_at(&m.body_subtreemass, 0);
             for k in 0..3 {
-                momentum[k] = mass * of(&d.subtree_linvel, k);
-                momentum[3 + k] = of(&d.subtree_angmom, k);
+                momentum[k] = mass * value_at(&d.subtree_linvel, k);
+                momentum[3 + k] = value_at(&d.subtree_angmom, k);
             }
         }
         seen.momentum.push(momentum);

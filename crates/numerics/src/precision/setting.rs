@@ -5,7 +5,7 @@ use labspec_core::Model;
 
 /// A solver setting that is varied; all other settings are the lab's own.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Solver {
+pub enum SolverVariation {
     /// `opt.iterations`.
     Iterations(i32),
     /// `opt.tolerance`.
@@ -16,7 +16,7 @@ pub enum Solver {
 
 /// Which solver setting is varied.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Axis {
+pub enum VariedSetting {
     /// `opt.iterations`.
     Iterations,
     /// `opt.tolerance`.
@@ -25,25 +25,27 @@ pub enum Axis {
     Cone,
 }
 
-impl Axis {
+impl VariedSetting {
     /// The values that are tried.
-    pub(super) fn values(self) -> Vec<Solver> {
+    pub(super) fn values(self) -> Vec<SolverVariation> {
         match self {
-            Axis::Iterations => [1, 2, 5, 10, 20, 50, 100].map(Solver::Iterations).to_vec(),
-            Axis::Tolerance => [1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 0.0].map(Solver::Tolerance).to_vec(),
-            Axis::Cone => [0, 1].map(Solver::Cone).to_vec(),
+            VariedSetting::Iterations => [1, 2, 5, 10, 20, 50, 100].map(SolverVariation::Iterations).to_vec(),
+            VariedSetting::Tolerance => {
+                [1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 0.0].map(SolverVariation::Tolerance).to_vec()
+            }
+            VariedSetting::Cone => [0, 1].map(SolverVariation::Cone).to_vec(),
         }
     }
 }
 
-impl Solver {
+impl SolverVariation {
     /// The setting in words.
     pub fn name(self) -> String {
         match self {
-            Solver::Iterations(n) => format!("iterations {n}"),
-            Solver::Tolerance(x) => format!("tolerance {x:e}"),
-            Solver::Cone(0) => "pyramidal cone".into(),
-            Solver::Cone(_) => "elliptic cone".into(),
+            SolverVariation::Iterations(n) => format!("iterations {n}"),
+            SolverVariation::Tolerance(x) => format!("tolerance {x:e}"),
+            SolverVariation::Cone(0) => "pyramidal cone".into(),
+            SolverVariation::Cone(_) => "elliptic cone".into(),
         }
     }
 }
@@ -56,7 +58,7 @@ pub struct Setting {
     /// Timestep, s.
     pub timestep: f64,
     /// The difference from the lab's own solver settings.
-    pub solver: Option<Solver>,
+    pub solver: Option<SolverVariation>,
 }
 
 impl Setting {
@@ -65,9 +67,9 @@ impl Setting {
         let opt = model.edit().opt;
         (*opt.timestep, *opt.integrator) = (self.timestep, self.integrator.id);
         match self.solver {
-            Some(Solver::Iterations(n)) => *opt.iterations = n,
-            Some(Solver::Tolerance(x)) => *opt.tolerance = x,
-            Some(Solver::Cone(kind)) => *opt.cone = kind,
+            Some(SolverVariation::Iterations(n)) => *opt.iterations = n,
+            Some(SolverVariation::Tolerance(x)) => *opt.tolerance = x,
+            Some(SolverVariation::Cone(kind)) => *opt.cone = kind,
             None => {}
         }
     }

@@ -35,11 +35,11 @@ impl StepHistory {
     pub(super) fn keep(&mut self, session: &Session<'_>, time: f64) {
         self.states.rotate_right(1);
         let (m, d) = (&session.world.model, &session.world.data);
-        let [now, ..] = &mut self.states;
-        now.time = time;
+        let [current, ..] = &mut self.states;
+        current.time = time;
         // The state belongs to the same model, so this cannot fail.
-        let _ = state::get(m, d, &mut now.motion, MOTION);
-        let _ = state::get(m, d, &mut now.held, HELD_INPUTS);
+        let _ = state::get(m, d, &mut current.motion, MOTION);
+        let _ = state::get(m, d, &mut current.held, HELD_INPUTS);
         self.count = (self.count + 1).min(MOST_STATES);
     }
 

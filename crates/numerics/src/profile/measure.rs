@@ -60,7 +60,7 @@ pub struct StepCost {
 }
 
 /// All measurements, with the stages in the order of the plan.
-pub(super) struct Measured {
+pub(super) struct Measurements {
     pub(super) step: StepCost,
     pub(super) seen: ConstraintCounts,
     pub(super) stages: Vec<Option<StageCost>>,
@@ -112,7 +112,7 @@ impl Times {
     /// have no effect on the median.
     fn sums(&self) -> [f64; 3] {
         let all = self.chunks.iter().map(|times| quartiles(&mut times.clone()));
-        all.fold([0.0; 3], |sum, now| [sum[0] + now[0], sum[1] + now[1], sum[2] + now[2]])
+        all.fold([0.0; 3], |sum, current| [sum[0] + current[0], sum[1] + current[1], sum[2] + current[2]])
     }
 }
 
@@ -194,7 +194,7 @@ pub(super) fn measure(
     model: &Model,
     programs: &Programs,
     readers: &[ExtraReader],
-) -> Result<Option<Measured>, RunError> {
+) -> Result<Option<Measurements>, RunError> {
     let (plan, _) = plan_at_start(lab, model, programs);
     let mut case = MeasuredLab { lab, model, programs, steps: 0, runs: 1, chunk: 16 };
     let (mut step, works) = observe_run(&mut case, &plan)?;
@@ -211,10 +211,10 @@ pub(super) fn measure(
     let (times, laps) = measure_alternately(&case, &plan, &variants);
     let per_step = |sum: f64| sum / case.steps as f64;
     let sums: Vec<[f64; 3]> = times.iter().map(|t| t.sums().map(per_step)).collect();
-    let of = |i: usize| sums.get(i).copied().unwrap_or_default();
-    let [low, ns, high] = of(0);
+    let mean = |i: usize| sums.get(i).copied().unwrap_or_default();
+    let [low, ns, high] = mean(0);
     // A variant that runs more stages is not faster; a negative difference is noise.
-    let more = |i: usize| (of(i)[1] - ns).max(0.0);
+    let more = |i: usize| (mean(i)[1] - ns).max(0.0);
     // A stage takes slightly longer when timed separately, so only its share of the total is used.
     let laps: Vec<f64> = laps.iter().map(|t| per_step(t.sums()[1])).collect();
     let all: f64 = laps.iter().sum();
@@ -223,7 +223,7 @@ pub(super) fn measure(
         StageCost { ns: share * ns, share, work }
     };
     let stages: Vec<_> = plan.decisions().iter().map(|d| d.stage).collect();
-    (step.ns, step.quartiles, step.full) = (ns, [low, high], of(1)[1]);
+    (step.ns, step.quartiles, step.full) = (ns, [low, high], mean(1)[1]);
     step.integrator = cost(stages.len(), 0.0);
     step.controller = programs.controller.as_ref().map(|_| cost(stages.len() + 1, 0.0));
     let costs = stages.iter().zip(&works).enumerate();
@@ -237,16 +237,16 @@ pub(super) fn measure(
         }));
     }
     let readers = (0..readers.len()).map(|i| more(next + 1 + i)).collect();
-    Ok(Some(Measured { seen: step.seen, step, stages: costs, forced, readers }))
+    Ok(Some(Measurements { seen: step.seen, step, stages: costs, forced, readers }))
 }
 
 /// The plans that are measured: the lab's own, one that reads everything, one with each omitted stage, one with each reader.
 fn variants(case: &MeasuredLab<'_>, plan: &Plan, readers: &[ExtraReader]) -> Vec<Plan> {
     let access = case.programs.access;
     let full = Plan::new(case.model, &AccessSet { reads: FieldSet::ALL, ..access });
-    let left_out = plan.decisions().iter().map(|d| d.stage).filter(|s| !plan.keeps(*s));
+    let omitted = plan.decisions().iter().map(|d| d.stage).filter(|s| !plan.keeps(*s));
     let mut variants = vec![plan.clone(), full];
-    variants.extend(left_out.map(|s| Plan::with(case.model, &access, s)));
+    variants.extend(omitted.map(|s| Plan::with(case.model, &access, s)));
     variants.extend(readers.iter().map(|r| Plan::new(case.model, &r.access)));
     variants
 }
@@ -284,9 +284,9 @@ fn observe_run(case: &mut MeasuredLab<'_>, plan: &Plan) -> Result<(StepCost, Vec
         let world = &session.world;
         let d = world.data.fields();
         let reach = core::pairs_in_reach(&world.model, &world.data).unwrap_or(0);
-        for ([sum, most], now) in seen.iter_mut().zip([reach, d.ncon, d.nefc, d.solver_niter]) {
-            *sum += now as f64;
-            *most = most.max(now as f64);
+        for ([sum, most], current) in seen.iter_mut().zip([reach, d.ncon, d.nefc, d.solver_niter]) {
+            *sum += current as f64;
+            *most = most.max(current as f64);
         }
     }
     let steps = case.steps.max(1) as f64;

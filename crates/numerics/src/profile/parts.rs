@@ -61,7 +61,7 @@ pub struct PairSummary {
     /// The number of pairs that can touch; zero if contacts are disabled.
     pub can_touch: usize,
     /// The other pairs by reason.
-    pub left_out: Vec<(&'static str, usize)>,
+    pub excluded: Vec<(&'static str, usize)>,
     /// The tests of the pairs that can touch: the shapes, the number, and whether the general search is used.
     pub tests: Vec<([&'static str; 2], usize, bool)>,
     /// The counts of the measured run.
@@ -74,8 +74,8 @@ pub(super) fn pairs(model: &Model, plan: &Plan, seen: Option<ConstraintCounts>) 
     if !plan.keeps(Stage::Collision)
         && statistics.iter().any(|(reason, _)| *reason == PairFilterReason::CanTouch)
     {
-        let left_out = vec![("contacts are switched off", all)];
-        return PairSummary { all, can_touch: 0, left_out, tests: Vec::new(), seen };
+        let excluded = vec![("contacts are switched off", all)];
+        return PairSummary { all, can_touch: 0, excluded, tests: Vec::new(), seen };
     }
     let can_touch =
         statistics.iter().find(|(reason, _)| *reason == PairFilterReason::CanTouch).map_or(0, |(_, n)| *n);
@@ -84,7 +84,7 @@ pub(super) fn pairs(model: &Model, plan: &Plan, seen: Option<ConstraintCounts>) 
     PairSummary {
         all,
         can_touch,
-        left_out: others.map(|(reason, n)| (reason.reason(), *n)).collect(),
+        excluded: others.map(|(reason, n)| (reason.reason(), *n)).collect(),
         tests: tests.collect(),
         seen,
     }
@@ -171,8 +171,8 @@ pub(super) fn integrators(model: &Model, access: &AccessSet) -> Vec<EngineOption
 pub(super) fn tree_algorithms(model: &Model, plan: &Plan) -> Vec<TreeAlgorithmUse> {
     let trees = plan.tree_algorithms(model);
     let count = |algorithm: core::TreeAlgorithm| {
-        let of = |i: usize| trees.iter().filter(|t| t.get(i) == Some(&algorithm)).count();
-        TreeAlgorithmUse { name: algorithm.name(), trees: [of(0), of(1), of(2)] }
+        let uses = |i: usize| trees.iter().filter(|t| t.get(i) == Some(&algorithm)).count();
+        TreeAlgorithmUse { name: algorithm.name(), trees: [uses(0), uses(1), uses(2)] }
     };
     core::TreeAlgorithm::all().map(count).collect()
 }

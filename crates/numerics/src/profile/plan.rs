@@ -72,7 +72,7 @@ pub fn plan(
     options: &PlanOptions,
 ) -> Result<PlanReport, RunError> {
     let access = programs.access;
-    let (plan, now) = plan_at_start(lab, model, programs);
+    let (plan, current) = plan_at_start(lab, model, programs);
     let mut readers = reader::readers(model, programs, &options.read)?;
     let measured = match options.run {
         true => measure::measure(lab, model, programs, &readers)?,
@@ -96,12 +96,12 @@ pub fn plan(
             true => "the program of the lab runs only when something that it reads or writes changes",
             false => "the program of the lab runs before every step",
         }),
-        pairs: parts::pairs(&now, &plan, measured.as_ref().map(|m| m.seen)),
-        cone: if now.opt.cone == 0 { "pyramidal" } else { "elliptic" },
-        solvers: parts::solvers(&now, &plan),
-        integrators: parts::integrators(&now, &access),
-        tree_algorithms: parts::tree_algorithms(&now, &plan),
-        sensors: parts::sensors(&now, &plan),
+        pairs: parts::pairs(&current, &plan, measured.as_ref().map(|m| m.seen)),
+        cone: if current.opt.cone == 0 { "pyramidal" } else { "elliptic" },
+        solvers: parts::solvers(&current, &plan),
+        integrators: parts::integrators(&current, &access),
+        tree_algorithms: parts::tree_algorithms(&current, &plan),
+        sensors: parts::sensors(&current, &plan),
         readers,
         step: measured.map(|m| m.step),
     })

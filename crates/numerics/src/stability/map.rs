@@ -4,7 +4,7 @@ use labspec::bind::scalar;
 use labspec::interrupt;
 use labspec::run::{RunError, settings};
 use labspec::spec::ControlKind;
-use labspec::stress::{Action, FaultKind, Kind, StressCase};
+use labspec::stress::{Action, FaultKind, InteractionKind, StressCase};
 use labspec_expr::Value;
 
 /// The number of values of a slider, and the maximum for a select.
@@ -56,7 +56,7 @@ pub(super) fn map(
             report_progress(&format!("map: run {} of {many}", made + 1));
             let set =
                 |control: usize, value: &Value| Action { time: 0.0, control, value: Some(value.clone()) };
-            let interaction = case.base.and(Kind::Corner, vec![set(x, a), set(y, b)]);
+            let interaction = case.base.and(InteractionKind::Corner, vec![set(x, a), set(y, b)]);
             if interrupt::requested() {
                 row.push(MapCell::Unknown);
                 continue;

@@ -10,7 +10,7 @@ use labspec::interrupt;
 use labspec::monitors::stability;
 use labspec::run::Session;
 use labspec::stress::{
-    FaultKind, Interaction, Kind, RunOutcome, StressCase, body_name, body_of, worst_fault,
+    FaultKind, Interaction, InteractionKind, RunOutcome, StressCase, body_name, body_of, worst_fault,
 };
 use labspec_core::math::{rows, rows_mut};
 use labspec_core::{Data, Model, Obj, disable, servo_gains, set_const};
@@ -50,7 +50,7 @@ pub struct Margin {
     /// Its unit; empty for a ratio, or if the unit depends on the joint.
     pub unit: &'static str,
     /// The current value in the lab.
-    pub now: f64,
+    pub current: f64,
     /// The largest value without a fault; `None` if even the smallest one that was tried fails.
     pub largest: Option<f64>,
     /// The smallest value above it that fails; `None` if none failed.
@@ -88,7 +88,7 @@ struct RaisedParameter {
     knob: ParameterKind,
     subject: String,
     unit: &'static str,
-    now: f64,
+    current: f64,
     most: f64,
     /// The object whose theoretical bounds apply; `None` means all, for the timestep.
     object: Option<(Obj, Option<usize>)>,
@@ -105,11 +105,11 @@ pub(super) fn margins(
     work: &mut u64,
 ) -> (Vec<Margin>, Vec<String>) {
     let model = case.start(&case.base, RUN).world.model;
-    let mut left_out = Vec::new();
+    let mut skipped = Vec::new();
     let mut list = vec![timestep(&model, length)];
     let mut some = |mut all: Vec<RaisedParameter>, what: &str| {
         if all.len() > MOST {
-            left_out.push(format!("margins of {} more {what}", all.len() - MOST));
+            skipped.push(format!("margins of {} more {what}", all.len() - MOST));
             all.truncate(MOST);
         }
         all
@@ -125,14 +125,14 @@ pub(super) fn margins(
         report_progress(&format!("margin: {} of {}", raised.knob.description(), raised.subject));
         match search(case, &raised, length, work) {
             Ok(margin) => found.push(margin),
-            Err(why) => left_out.push(format!(
+            Err(why) => skipped.push(format!(
                 "the margin of the {} of {}, {why}",
                 raised.knob.description(),
                 raised.subject
             )),
         }
     }
-    (found, left_out)
+    (found, skipped)
 }
 
 /// # Errors
@@ -150,7 +150,7 @@ fn search(
         if *work - before > WORK || interrupt::requested() {
             return None;
         }
-        for interaction in [case.base.clone(), case.base.and(Kind::Touched, Vec::new())] {
+        for interaction in [case.base.clone(), case.base.and(InteractionKind::Touched, Vec::new())] {
             runs += 1;
             let Some(outcome) = run(case, &interaction, raised, x, length, work) else {
                 set = true;
@@ -182,11 +182,11 @@ fn search(
         knob: raised.knob,
         subject: raised.subject.clone(),
         unit: raised.unit,
-        now: raised.now,
-        largest: limit.fine.map(|x| x * raised.now),
-        breaks: limit.broken.map(|x| x * raised.now),
+        current: raised.current,
+        largest: limit.fine.map(|x| x * raised.current),
+        breaks: limit.broken.map(|x| x * raised.current),
         how: how.filter(|_| limit.broken.is_some()),
-        bound: bound.map(|x| x * raised.now).filter(|_| raised.knob != ParameterKind::MassRatio),
+        bound: bound.map(|x| x * raised.current).filter(|_| raised.knob != ParameterKind::MassRatio),
         runs,
         geoms: raised.geoms.clone(),
     })
@@ -208,12 +208,12 @@ fn run(
     length: f64,
     work: &mut u64,
 ) -> Option<RunOutcome> {
-    let wanted = x * raised.now;
-    let same = |m: &Model| ((raised.read)(m) - wanted).abs() <= 1e-9 * wanted.abs();
+    let target = x * raised.current;
+    let same = |m: &Model| ((raised.read)(m) - target).abs() <= 1e-9 * target.abs();
     let mut model = case.model.clone();
     // The factor is relative to the value after the lab is loaded.
-    let now = (raised.read)(&model);
-    (raised.apply)(&mut model, if now > 0.0 { wanted / now } else { x });
+    let current = (raised.read)(&model);
+    (raised.apply)(&mut model, if current > 0.0 { target / current } else { x });
     if raised.knob == ParameterKind::MassRatio {
         // Recomputes the fields that depend on masses; if an inertia is not positive, they remain unchanged.
         let mut data = Data::new(&model);
@@ -224,7 +224,7 @@ fn run(
     let change = |session: &mut Session<'_>| {
         let set = (raised.read)(&session.world.model);
         if free && !same(&session.world.model) && set > 0.0 {
-            (raised.apply)(&mut session.world.model, wanted / set);
+            (raised.apply)(&mut session.world.model, target / set);
         }
     };
     let (outcome, model) = case.run_to_model(interaction, Some(&change), length, RUN);
@@ -233,13 +233,13 @@ fn run(
 }
 
 fn timestep(m: &Model, length: f64) -> RaisedParameter {
-    let now = m.opt.timestep;
+    let current = m.opt.timestep;
     RaisedParameter {
         knob: ParameterKind::Timestep,
         subject: "the lab".into(),
         unit: "s",
-        now,
-        most: (LONGEST.min(length / STEPS) / now).max(1.0),
+        current,
+        most: (LONGEST.min(length / STEPS) / current).max(1.0),
         object: None,
         apply: Box::new(|m, x| *m.edit().opt.timestep *= x),
         read: Box::new(|m| m.opt.timestep),
@@ -272,7 +272,7 @@ fn gains(m: &Model) -> Vec<RaisedParameter> {
                 knob: ParameterKind::Gain,
                 subject: named(&m.names.actuator, a, "the servo"),
                 unit: "",
-                now: gain,
+                current: gain,
                 most: f64::INFINITY,
                 object: Some((Obj::Actuator, Some(a))),
                 apply: Box::new(apply),
@@ -292,7 +292,7 @@ fn stiffnesses(m: &Model) -> Vec<RaisedParameter> {
                 knob: ParameterKind::Stiffness,
                 subject: named(&m.names.joint, j, "joint"),
                 unit: "",
-                now: m.jnt_stiffness[j],
+                current: m.jnt_stiffness[j],
                 most: f64::INFINITY,
                 object: Some((Obj::Joint, Some(j))),
                 apply: Box::new(move |m, x| {
@@ -307,7 +307,7 @@ fn stiffnesses(m: &Model) -> Vec<RaisedParameter> {
                 knob: ParameterKind::Stiffness,
                 subject: named(&m.names.tendon, t, "tendon"),
                 unit: "N/m",
-                now: m.tendon_stiffness[t],
+                current: m.tendon_stiffness[t],
                 most: f64::INFINITY,
                 object: Some((Obj::Tendon, Some(t))),
                 apply: Box::new(move |m, x| {
@@ -342,12 +342,12 @@ fn contacts(m: &Model, touching: &[[usize; 2]]) -> Option<RaisedParameter> {
             }
         }
     };
-    let now = read(m);
-    (now > 0.0).then(|| RaisedParameter {
+    let current = read(m);
+    (current > 0.0).then(|| RaisedParameter {
         knob: ParameterKind::Stiffness,
         subject: "all contacts".into(),
         unit: "1/s²",
-        now,
+        current,
         most: f64::INFINITY,
         object: Some((Obj::Geom, None)),
         apply: Box::new(apply),
@@ -376,7 +376,7 @@ fn ratios(m: &Model, touching: &[[usize; 2]]) -> Vec<RaisedParameter> {
                 knob: ParameterKind::MassRatio,
                 subject: format!("{} to {}", body_name(m, heavy), body_name(m, light)),
                 unit: "",
-                now: mass(heavy) / mass(light),
+                current: mass(heavy) / mass(light),
                 most: f64::INFINITY,
                 object: None,
                 apply: Box::new(move |m, x| scale_mass(m, heavy, x)),

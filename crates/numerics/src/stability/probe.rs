@@ -9,7 +9,7 @@ use labspec::interrupt;
 use labspec::run::{self, RunError};
 use labspec::spec::{Expect, Lab};
 use labspec::stress::{
-    FaultGroup, FaultKind, Interaction, Kind, StressCase, add_fault, list_interactions, window,
+    FaultGroup, FaultKind, Interaction, InteractionKind, StressCase, add_fault, list_interactions, window,
     without_pushed_bodies,
 };
 use labspec_core::Model;
@@ -66,13 +66,13 @@ pub struct StabilityFinding {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RunCount {
     /// The kind.
-    pub kind: Kind,
+    pub kind: InteractionKind,
     /// Runs that were completed, or stopped at a fault.
     pub made: usize,
     /// Runs that exceeded their work limit.
     pub cut: usize,
     /// Runs that were not started.
-    pub left_out: usize,
+    pub skipped: usize,
 }
 
 /// All results for a lab.
@@ -87,9 +87,9 @@ pub struct StressReport {
     /// The simulated time of the shortest run that was cut, s.
     pub shortest: Option<f64>,
     /// The number of pairs of settings that occur in no run, because there are too many.
-    pub pairs_left_out: usize,
+    pub skipped_pairs: usize,
     /// What was not tested, with the reasons.
-    pub left_out: Vec<String>,
+    pub skipped: Vec<String>,
     /// The faults, the simplest setting first.
     pub found: Vec<StabilityFinding>,
     /// The time that a student watches, s: the length of the runs for margins and sensitivity.
@@ -107,8 +107,8 @@ pub struct StressReport {
 impl StressReport {
     /// Whether everything was tested and no unexpected fault was found.
     pub fn fine(&self) -> bool {
-        let whole = self.tried.iter().all(|t| t.cut == 0 && t.left_out == 0);
-        whole && self.pairs_left_out == 0 && self.left_out.is_empty() && self.found.iter().all(|f| f.expected)
+        let whole = self.tried.iter().all(|t| t.cut == 0 && t.skipped == 0);
+        whole && self.skipped_pairs == 0 && self.skipped.is_empty() && self.found.iter().all(|f| f.expected)
     }
 }
 
@@ -131,13 +131,13 @@ pub fn probe(
     let timestep = case.start(&case.base, WORK).world.model.opt.timestep;
     let steps = run::count_steps(lab, Some(length), None, timestep)?;
     run::presses_within(programs, &run::presses(programs, &options.press)?, steps, timestep)?;
-    let (interactions, pairs_left_out) = list_interactions(lab, short, &case.base);
-    let mut report = empty_report(length, short, pairs_left_out);
+    let (interactions, skipped_pairs) = list_interactions(lab, short, &case.base);
+    let mut report = empty_report(length, short, skipped_pairs);
     if let Some(most) = case.watched_pairs_limit() {
-        report.left_out.push(format!("only the first {most} pairs of geoms are watched for tunnelling"));
+        report.skipped.push(format!("only the first {most} pairs of geoms are watched for tunnelling"));
     }
     let (groups, work_per_second) = run_interactions(&case, &interactions, &mut report, report_progress);
-    report.tried.retain(|t| t.made + t.cut + t.left_out > 0);
+    report.tried.retain(|t| t.made + t.cut + t.skipped > 0);
     let expects_breaks = matches!(lab.expect, Some(Expect::Breaks(_)));
     let breaks = |kind| matches!(kind, FaultKind::Diverges | FaultKind::Grows | FaultKind::Silent);
     let finding = |group: FaultGroup| {
@@ -149,7 +149,7 @@ pub fn probe(
     if options.margins {
         let (margins, more) = margins::margins(&case, short, report_progress, &mut report.work);
         report.margins = margins;
-        report.left_out.extend(more);
+        report.skipped.extend(more);
     }
     report_progress("sensitivity");
     report.sensitivity = sensitivity::sensitivity(&case, short, &mut report.work);
@@ -160,20 +160,20 @@ pub fn probe(
 }
 
 /// A report for runs of this length, before the first run.
-fn empty_report(length: f64, window: f64, pairs_left_out: usize) -> StressReport {
+fn empty_report(length: f64, window: f64, skipped_pairs: usize) -> StressReport {
     StressReport {
         length,
-        tried: Kind::ALL.map(|kind| RunCount { kind, made: 0, cut: 0, left_out: 0 }).to_vec(),
+        tried: InteractionKind::ALL.map(|kind| RunCount { kind, made: 0, cut: 0, skipped: 0 }).to_vec(),
         runs: Vec::new(),
         shortest: None,
-        pairs_left_out,
-        left_out: Vec::new(),
+        skipped_pairs,
+        skipped: Vec::new(),
         found: Vec::new(),
         window,
         margins: Vec::new(),
         sensitivity: Sensitivity {
             length: window,
-            apart: 0.0,
+            distance: 0.0,
             parting: None,
             exponent: None,
             horizons: Vec::new(),
@@ -205,13 +205,13 @@ fn run_interactions(
         let share = left / (interactions.len() - i) as u64;
         let Some(tried) = report.tried.iter_mut().find(|t| t.kind == interaction.kind) else { continue };
         if interrupt::requested() {
-            tried.left_out += 1;
+            tried.skipped += 1;
             continue;
         }
         let outcome = case.run(interaction, None, length, share);
         left = left.saturating_sub(outcome.spent);
         report.work += outcome.spent;
-        if interaction.kind == Kind::AsItStands {
+        if interaction.kind == InteractionKind::AsItStands {
             work_per_second = outcome.spent as f64 / outcome.covered.max(case.model.opt.timestep);
         }
         if outcome.cut {
@@ -262,6 +262,6 @@ fn try_remedies(
     }
     report.work += tries.work;
     if untried > 0 {
-        report.left_out.push(format!("remedies for {untried} of the findings"));
+        report.skipped.push(format!("remedies for {untried} of the findings"));
     }
 }

@@ -15,7 +15,7 @@ use std::ops::ControlFlow;
 
 /// The distance of the second run from the first, in the units of the coordinates; the number of rescalings;
 /// the number of directions.
-const APART: f64 = 1e-7;
+const SEPARATION: f64 = 1e-7;
 const TIMES: usize = 100;
 const DIRECTIONS: u64 = 3;
 /// Growth counts as exponential if the factor is at least `MIN_GROWTH`, a straight line explains at least `MIN_EXPLAINED`
@@ -67,7 +67,7 @@ pub struct Sensitivity {
     /// The length of the runs, s.
     pub length: f64,
     /// The distance of the other start.
-    pub apart: f64,
+    pub distance: f64,
     /// The growth factor; `None` if the lab has no degrees of freedom or a run does not reach its end.
     pub parting: Option<DivergenceOfStarts>,
     /// The exponent; `None` if the difference does not grow exponentially.
@@ -93,7 +93,7 @@ pub(super) fn sensitivity(case: &StressCase<'_>, length: f64, work: &mut u64) ->
         high: most(&list),
         directions: list.len(),
     });
-    Sensitivity { length, apart: PERTURBATION, parting, exponent, horizons: horizons(case, length, work) }
+    Sensitivity { length, distance: PERTURBATION, parting, exponent, horizons: horizons(case, length, work) }
 }
 
 /// The slope of a logarithm that grows linearly from the start, 1/s.
@@ -105,9 +105,9 @@ fn slope(list: &[(f64, f64)]) -> Option<f64> {
         return None;
     }
     let n = list.len() as f64;
-    let mean = |of: &dyn Fn(&(f64, f64)) -> f64| list.iter().map(of).sum::<f64>() / n;
+    let mean = |function: &dyn Fn(&(f64, f64)) -> f64| list.iter().map(function).sum::<f64>() / n;
     let (t, y) = (mean(&|p| p.0), mean(&|p| p.1));
-    let product = |of: &dyn Fn(&(f64, f64)) -> f64| list.iter().map(of).sum::<f64>();
+    let product = |function: &dyn Fn(&(f64, f64)) -> f64| list.iter().map(function).sum::<f64>();
     let tt = product(&|p| (p.0 - t) * (p.0 - t));
     let ty = product(&|p| (p.0 - t) * (p.1 - y));
     let yy = product(&|p| (p.1 - y) * (p.1 - y));
@@ -125,23 +125,23 @@ fn logarithms(case: &StressCase<'_>, length: f64, seed: u64, work: &mut u64) -> 
         return None;
     }
     let mut second = first.clone();
-    separate_runs(&first, &mut second, &direction(seed, 2 * nv), APART)?;
+    separate_runs(&first, &mut second, &direction(seed, 2 * nv), SEPARATION)?;
     let (mut sum, mut made, mut list) = (0.0, 0, Vec::new());
     while made < steps {
         let some = each.min(steps - made);
         let done =
             [&mut first, &mut second].map(|s| run::play(s, &chunk(some), |_, _| ControlFlow::Continue(())));
         made += some;
-        let apart = difference(&first, &second)?;
-        let size = apart.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let offset = difference(&first, &second)?;
+        let size = offset.iter().map(|x| x * x).sum::<f64>().sqrt();
         if done != [some; 2] || !(size.is_finite() && size > 0.0) || warned(&first) || warned(&second) {
             *work += first.spent() + second.spent();
             return None;
         }
-        sum += (size / APART).ln();
+        sum += (size / SEPARATION).ln();
         list.push((made as f64 * h, sum));
-        let along: Vec<f64> = apart.iter().map(|x| x / size).collect();
-        separate_runs(&first, &mut second, &along, APART)?;
+        let along: Vec<f64> = offset.iter().map(|x| x / size).collect();
+        separate_runs(&first, &mut second, &along, SEPARATION)?;
     }
     *work += first.spent() + second.spent();
     Some(list)
@@ -180,18 +180,18 @@ fn difference(first: &Session<'_>, second: &Session<'_>) -> Option<Vec<f64>> {
 }
 
 /// Moves the second run to some distance from the first.
-fn separate_runs(first: &Session<'_>, second: &mut Session<'_>, along: &[f64], apart: f64) -> Option<()> {
+fn separate_runs(first: &Session<'_>, second: &mut Session<'_>, along: &[f64], distance: f64) -> Option<()> {
     let from = first.world.data.fields();
     let nv = first.world.model.nv;
     let (places, speeds) = along.split_at_checked(nv)?;
     let mut qpos = from.qpos.to_vec();
-    integrate_pos(&first.world.model, &mut qpos, places, apart).ok()?;
+    integrate_pos(&first.world.model, &mut qpos, places, distance).ok()?;
     let to = second.world.data.edit();
     to.qpos.copy_from_slice(&qpos);
     to.act.copy_from_slice(&from.act);
     to.qacc_warmstart.copy_from_slice(&from.qacc_warmstart);
     for ((to, from), along) in to.qvel.iter_mut().zip(&from.qvel).zip(speeds) {
-        *to = from + apart * along;
+        *to = from + distance * along;
     }
     Some(())
 }

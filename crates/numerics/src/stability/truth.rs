@@ -64,19 +64,20 @@ pub(super) fn truth<'h>(
             return None;
         }
         parts *= REFINEMENT;
-        let now = fine(parts, work);
-        let ranges = ranges(&now);
-        let apart =
+        let current = fine(parts, work);
+        let ranges = ranges(&current);
+        let differ =
             |(a, b): (&Vec<f64>, &Vec<f64>)| largest(a, b, &ranges).is_none_or(|x| x > MAX_DIFFERENCE);
-        let agreeing = coarse.iter().zip(&now).position(apart).unwrap_or(coarse.len().min(now.len()));
-        let whole = agreeing == now.len();
+        let agreeing =
+            coarse.iter().zip(&current).position(differ).unwrap_or(coarse.len().min(current.len()));
+        let whole = agreeing == current.len();
         if best.as_ref().is_none_or(|(_, before)| agreeing > *before) {
-            best = Some((now.clone(), agreeing));
+            best = Some((current.clone(), agreeing));
         }
         if whole {
             break;
         }
-        coarse = now;
+        coarse = current;
     }
     let (mut rows, agreeing) = best?;
     rows.truncate(agreeing);
@@ -147,11 +148,11 @@ fn displayed_numbers(case: &StressCase<'_>, session: &mut Session<'_>) -> Vec<f6
 /// The largest minus the smallest value of each number.
 fn ranges(rows: &SampledRows) -> Vec<f64> {
     let width = rows.first().map_or(0, Vec::len);
-    let of = |k: usize| {
+    let value_at = |k: usize| {
         let column = || rows.iter().filter_map(|row| row.get(k)).copied();
         column().fold(f64::NEG_INFINITY, f64::max) - column().fold(f64::INFINITY, f64::min)
     };
-    (0..width).map(of).collect()
+    (0..width).map(value_at).collect()
 }
 
 /// The largest difference of two rows relative to the ranges, or `None` if the rows have different lengths.

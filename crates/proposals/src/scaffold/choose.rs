@@ -2,11 +2,11 @@
 
 use super::pairs;
 use super::relation::{Relation, contains_words};
-use crate::trace::{Candidate, ProposedVerify, TracedLab, Trial, split_words};
+use crate::trace::{Candidate, ProposedVerify, TraceRun, TracedLab, split_words};
 use labspec::run::StepVariant;
 use labspec::source::Text;
 use labspec::spec::Question;
-use labspec::verify::{Stage, Stated, plain};
+use labspec::verify::{RunCache, Stated, plain};
 use std::collections::BTreeSet;
 
 /// The reward for a word that the question and the measure share, and the maximum number of rewarded words.
@@ -18,7 +18,7 @@ const UNNAMED: f64 = 0.3;
 /// A selection: two numbers, and the relation between them that each option states.
 pub(super) struct MeasureChoice<'t, 'l> {
     pub(super) tried: &'t TracedLab<'l>,
-    trials: Vec<Trial>,
+    trials: Vec<TraceRun>,
     /// The run and the measure of each number.
     numbers: [(usize, String); 2],
     found: [f64; 2],
@@ -64,7 +64,7 @@ pub(super) fn choose<'t, 'l>(
     options: &[Text],
     labs: &[&'t TracedLab<'l>],
     numbers: &[Stated],
-    stage: &Stage<'_>,
+    stage: &RunCache<'_>,
 ) -> Result<MeasureChoice<'t, 'l>, String> {
     let question_text = plain(&question.q.value).to_lowercase();
     let options: Vec<String> = options.iter().map(|o| plain(&o.value)).collect();
@@ -100,10 +100,10 @@ pub(super) fn choose<'t, 'l>(
 /// The measures of a lab for which exactly one option is true in a pair of runs.
 fn comparisons<'t, 'l>(
     tried: &'t TracedLab<'l>,
-    runs: &pairs::Runs,
+    runs: &pairs::RunPairs,
     relations: &[Option<Relation>],
     question_words: &BTreeSet<String>,
-    stage: &Stage<'_>,
+    stage: &RunCache<'_>,
 ) -> Vec<MeasureChoice<'t, 'l>> {
     let values: Vec<Vec<f64>> =
         runs.trials.iter().map(|t| tried.values_of(t, stage, StepVariant::NOMINAL)).collect();
@@ -153,7 +153,12 @@ fn only(list: impl Iterator<Item = bool>) -> Option<usize> {
     holding.next().is_none().then_some(first)
 }
 
-fn named(trials: &[Trial], runs: [usize; 2], measures: [&String; 2], values: [f64; 2]) -> Vec<(String, f64)> {
+fn named(
+    trials: &[TraceRun],
+    runs: [usize; 2],
+    measures: [&String; 2],
+    values: [f64; 2],
+) -> Vec<(String, f64)> {
     let one = |((run, measure), value): ((usize, &String), f64)| {
         let words = trials.get(run).map_or("", |t| t.words.as_str());
         (format!("{measure}, {words}"), value)
@@ -175,10 +180,10 @@ fn orders<'t, 'l>(tried: &'t TracedLab<'l>, options: &[String]) -> Vec<MeasureCh
     for (k, (i, a)) in meets.iter().enumerate() {
         for (j, b) in meets.iter().skip(k + 1) {
             let alone = |names: &[&str], other: &[&str]| -> BTreeSet<String> {
-                let of = |names: &[&str]| -> BTreeSet<String> {
+                let words = |names: &[&str]| -> BTreeSet<String> {
                     names.iter().flat_map(|n| split_words(n)).collect()
                 };
-                of(names).difference(&of(other)).cloned().collect()
+                words(names).difference(&words(other)).cloned().collect()
             };
             let [first, second] = [alone(a, b), alone(b, a)];
             let relation = |option: &String| {

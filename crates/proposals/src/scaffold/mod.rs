@@ -20,7 +20,7 @@ use labspec::bind::scene::Models;
 use labspec::check::{self, CheckLevel};
 use labspec::lint::reload_lesson;
 use labspec::spec::{ChoiceStyle, LabAddress, Lesson, Question, QuestionKind};
-use labspec::verify::{Stage, Verdict};
+use labspec::verify::{RunCache, Verdict};
 use std::ops::Range;
 
 /// A question or a lab without a claim, and the result.
@@ -63,14 +63,14 @@ pub enum ScaffoldOutcome {
 /// of the current activity.
 pub fn scaffold(lesson: &Lesson, models: &Models, report_progress: &mut dyn FnMut(&str)) -> Vec<Scaffold> {
     let found = trace(lesson, models, report_progress);
-    let stage = Stage::new(models);
+    let stage = RunCache::new(models);
     let mut all = Vec::new();
     let blocks = trace::blocks(&found);
     for (address, lab) in lesson.addressed() {
         if lab.verify.is_some() || matches!(address, LabAddress::Sim { .. }) {
             continue;
         }
-        let block = blocks.iter().find(|(of, _)| *of == address).map(|(_, block)| block.clone());
+        let block = blocks.iter().find(|(entry, _)| *entry == address).map(|(_, block)| block.clone());
         let found = match block {
             Some(verify) => {
                 ScaffoldOutcome::Proposed { verify, values: Vec::new(), undecided: Vec::new(), verdict: None }
@@ -104,7 +104,12 @@ pub fn scaffold(lesson: &Lesson, models: &Models, report_progress: &mut dyn FnMu
 }
 
 /// The proposal for a question.
-fn propose(lesson: &Lesson, question: &Question, found: &Traces<'_>, stage: &Stage<'_>) -> ScaffoldOutcome {
+fn propose(
+    lesson: &Lesson,
+    question: &Question,
+    found: &Traces<'_>,
+    stage: &RunCache<'_>,
+) -> ScaffoldOutcome {
     match &question.kind {
         QuestionKind::Choice { style: ChoiceStyle::Multiple, .. } | QuestionKind::TrueFalse { .. } => {
             ScaffoldOutcome::Open(

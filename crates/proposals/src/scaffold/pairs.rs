@@ -1,6 +1,6 @@
 //! The runs that a question compares, in the order in which the question names them.
 
-use crate::trace::{Trial, si, trials};
+use crate::trace::{TraceRun, si, trials};
 use labspec::json::{Number, Scalar};
 use labspec::run::settings;
 use labspec::spec::{Control, ControlKind, Lab, Question};
@@ -26,13 +26,13 @@ const CHANGES: [(&str, f64); 12] = [
 ];
 
 /// Runs, and pairs of them: before and after a change.
-pub(super) struct Runs {
-    pub(super) trials: Vec<Trial>,
+pub(super) struct RunPairs {
+    pub(super) trials: Vec<TraceRun>,
     pub(super) pairs: Vec<(usize, usize)>,
 }
 
 /// The runs of a lab that a question names. The first is the unchanged lab.
-pub(super) fn runs(question: &Question, question_text: &str, lab: &Lab, numbers: &[Stated]) -> Runs {
+pub(super) fn runs(question: &Question, question_text: &str, lab: &Lab, numbers: &[Stated]) -> RunPairs {
     let of_question: Vec<Stated> =
         numbers.iter().filter(|n| question.span.contains(&n.span.start) && !n.answer).cloned().collect();
     let stated: Vec<Stated> =
@@ -58,11 +58,11 @@ pub(super) fn runs(question: &Question, question_text: &str, lab: &Lab, numbers:
         }
     }
     let pairs = pairs(&all, question_text, lab, &stated);
-    Runs { trials: all, pairs }
+    RunPairs { trials: all, pairs }
 }
 
 /// A run with a changed control, if the question names the label of the control together with a word for a change.
-fn changed(control: &Control, question_text: &str, base: &Trial) -> Option<Trial> {
+fn changed(control: &Control, question_text: &str, base: &TraceRun) -> Option<TraceRun> {
     let label = control.label.as_str();
     let ControlKind::Slider { value: start, min, .. } = &control.kind else { return None };
     let words = label.split(|c: char| !c.is_alphanumeric()).filter(|w| w.chars().count() > 2);
@@ -73,14 +73,14 @@ fn changed(control: &Control, question_text: &str, base: &Trial) -> Option<Trial
         return None;
     }
     let step = control.step().unwrap_or(0.0);
-    let wanted = start.value * factor;
-    let x = if step > 0.0 { min.value + ((wanted - min.value) / step).round() * step } else { wanted };
+    let target = start.value * factor;
+    let x = if step > 0.0 { min.value + ((target - min.value) / step).round() * step } else { target };
     let x: f64 = format!("{x:.12}").parse().unwrap_or(x);
     let reached = settings::value(control, &Value::Number(x)).is_ok();
-    if !reached || x == start.value || (x - wanted).abs() > 0.05 * wanted.abs() {
+    if !reached || x == start.value || (x - target).abs() > 0.05 * target.abs() {
         return None;
     }
-    Some(Trial {
+    Some(TraceRun {
         words: format!("with \"{label}\" at {x}"),
         set: vec![(label.to_string(), Scalar::Number(Number { value: x, span: 0..0 }))],
         ..base.clone()
@@ -89,8 +89,8 @@ fn changed(control: &Control, question_text: &str, base: &Trial) -> Option<Trial
 
 /// Pairs of before and after, in the order in which the question names the runs. A run that it does not name is the
 /// unchanged lab, which comes first.
-fn pairs(all: &[Trial], question_text: &str, lab: &Lab, stated: &[Stated]) -> Vec<(usize, usize)> {
-    let place = |t: &Trial| {
+fn pairs(all: &[TraceRun], question_text: &str, lab: &Lab, stated: &[Stated]) -> Vec<(usize, usize)> {
+    let place = |t: &TraceRun| {
         let (x, unit) = t.named?;
         stated.iter().position(|n| n.dimension.agrees(&unit) && (si(n) - x).abs() <= 1e-9 * x.abs())
     };
@@ -111,7 +111,7 @@ fn pairs(all: &[Trial], question_text: &str, lab: &Lab, stated: &[Stated]) -> Ve
 }
 
 /// Whether the question goes from this run to the unchanged lab: "from 10 to 1", where 1 is the initial value.
-fn is_initial_run(t: &Trial, question_text: &str, lab: &Lab) -> bool {
+fn is_initial_run(t: &TraceRun, question_text: &str, lab: &Lab) -> bool {
     let [(label, value)] = t.set.as_slice() else { return false };
     let Some(control) = lab.control(label) else { return false };
     let written = |value: &Scalar| match value {

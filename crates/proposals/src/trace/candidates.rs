@@ -79,18 +79,20 @@ pub(super) fn candidates(
     }
     for x in displayed.iter().filter(|x| x.text != "data.time") {
         let DisplayedNumber { text, dimension, words, more } = x;
-        let mut of = |measure: String, cost: f64| add(&mut all, measure, *dimension, cost + more, words);
-        of(format!("final({text})"), 2.0);
-        of(format!("max({text})"), 2.2);
-        of(format!("min({text})"), 2.2);
-        of(format!("initial({text})"), 2.2);
-        of(format!("max({text}) - min({text})"), 3.0);
-        of(format!("mean({text})"), 3.5);
+        let mut add_candidate =
+            |measure: String, cost: f64| add(&mut all, measure, *dimension, cost + more, words);
+        add_candidate(format!("final({text})"), 2.0);
+        add_candidate(format!("max({text})"), 2.2);
+        add_candidate(format!("min({text})"), 2.2);
+        add_candidate(format!("initial({text})"), 2.2);
+        add_candidate(format!("max({text}) - min({text})"), 3.0);
+        add_candidate(format!("mean({text})"), 3.5);
         for (a, b) in &pairs {
             let words = format!("{words} {a} {b} {CONTACT_WORDS}");
-            let mut of = |measure: String, cost: f64| add(&mut all, measure, *dimension, cost + more, &words);
-            of(format!("before(contact('{a}', '{b}'), {text})"), 2.6);
-            of(format!("at(contact('{a}', '{b}'), {text})"), 3.0);
+            let mut add_candidate =
+                |measure: String, cost: f64| add(&mut all, measure, *dimension, cost + more, &words);
+            add_candidate(format!("before(contact('{a}', '{b}'), {text})"), 2.6);
+            add_candidate(format!("at(contact('{a}', '{b}'), {text})"), 3.0);
         }
         if *more == 0.0 {
             add(&mut all, format!("period({text})"), second(), 3.0, words);

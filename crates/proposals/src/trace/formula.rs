@@ -32,7 +32,7 @@ pub(super) fn bindings(numbers: &[Stated]) -> Vec<Binding> {
         // The formula ends where words begin.
         let mut parts = chain(s)?.into_iter().map(|part| tokens(&part));
         let first = parts.find(|all| has_words(all) || all.len() == 1)?;
-        let Some(Token::Symbol(name)) = first.last().cloned() else { return None };
+        let Some(FormulaToken::Symbol(name)) = first.last().cloned() else { return None };
         Some(Binding { name, value: si(s), at: s.span.start })
     };
     numbers.iter().filter_map(one).collect()
@@ -44,7 +44,8 @@ pub(super) fn before(s: &Stated, bindings: &[Binding]) -> Option<EvaluatedFormul
         let all = tokens(&part);
         // Words may precede the formula: the longest suffix that is a formula is used.
         let found = (0..all.len()).find_map(|from| {
-            let mut parser = Parser { tokens: all.get(from..)?, at: 0, deep: 0, operations: 0, s, bindings };
+            let mut parser =
+                FormulaParser { tokens: all.get(from..)?, at: 0, deep: 0, operations: 0, s, bindings };
             let worked = parser.sum()?;
             let whole = parser.at == parser.tokens.len() && parser.operations > 0;
             whole.then_some(worked)
@@ -60,9 +61,9 @@ pub(super) fn before(s: &Stated, bindings: &[Binding]) -> Option<EvaluatedFormul
 }
 
 /// Whether there are words in addition to a formula.
-fn has_words(all: &[Token]) -> bool {
+fn has_words(all: &[FormulaToken]) -> bool {
     all.iter()
-        .any(|t| matches!(t, Token::Symbol(name) if name.len() > 3 && name.chars().all(char::is_alphabetic)))
+        .any(|t| matches!(t, FormulaToken::Symbol(name) if name.len() > 3 && name.chars().all(char::is_alphabetic)))
 }
 
 /// The parts between the equality signs before a number, the nearest first, or `None` if there is no such sign.
@@ -84,7 +85,7 @@ fn chain(s: &Stated) -> Option<Vec<String>> {
 }
 
 #[derive(Clone, Debug, PartialEq)]
-enum Token {
+enum FormulaToken {
     Number(f64, String),
     Symbol(String),
     Command(String),
@@ -92,7 +93,7 @@ enum Token {
 }
 
 /// The last tokens of a text.
-fn tokens(text: &str) -> Vec<Token> {
+fn tokens(text: &str) -> Vec<FormulaToken> {
     let chars: Vec<char> = text.chars().collect();
     let at = |i: usize| chars.get(i).copied();
     let mut all = Vec::new();
@@ -109,7 +110,7 @@ fn tokens(text: &str) -> Vec<Token> {
                 };
                 let word: String = chars.iter().skip(i).take(length).collect();
                 let word = word.trim_end_matches('.').to_string();
-                all.push(word.parse().map_or(Token::Sign('?'), |x| Token::Number(x, word)));
+                all.push(word.parse().map_or(FormulaToken::Sign('?'), |x| FormulaToken::Number(x, word)));
                 i += length;
                 continue;
             }
@@ -120,15 +121,15 @@ fn tokens(text: &str) -> Vec<Token> {
                 i += length + 1;
                 continue;
             }
-            '×' | '·' | '*' => all.push(Token::Sign('*')),
-            '−' | '-' | '–' => all.push(Token::Sign('-')),
+            '×' | '·' | '*' => all.push(FormulaToken::Sign('*')),
+            '−' | '-' | '–' => all.push(FormulaToken::Sign('-')),
             '²' | '³' => {
-                all.push(Token::Sign('^'));
+                all.push(FormulaToken::Sign('^'));
                 let (x, word) = if c == '²' { (2.0, "2") } else { (3.0, "3") };
-                all.push(Token::Number(x, word.into()));
+                all.push(FormulaToken::Number(x, word.into()));
             }
-            '√' => all.push(Token::Command("sqrt".into())),
-            '+' | '/' | '(' | ')' | '{' | '}' | '^' => all.push(Token::Sign(c)),
+            '√' => all.push(FormulaToken::Command("sqrt".into())),
+            '+' | '/' | '(' | ')' | '{' | '}' | '^' => all.push(FormulaToken::Sign(c)),
             c if c.is_alphabetic() => {
                 let length = run(i, &|c| c.is_alphabetic());
                 if length == 1 {
@@ -136,12 +137,12 @@ fn tokens(text: &str) -> Vec<Token> {
                 } else {
                     // Adjacent letters are a product in a formula, and a word in a sentence.
                     let word: String = chars.iter().skip(i).take(length).collect();
-                    all.push(Token::Symbol(word));
+                    all.push(FormulaToken::Symbol(word));
                     i += length - 1;
                 }
             }
             c if c.is_whitespace() || matches!(c, '$' | '~') => {}
-            c => all.push(Token::Sign(c)),
+            c => all.push(FormulaToken::Sign(c)),
         }
         i += 1;
     }
@@ -150,29 +151,31 @@ fn tokens(text: &str) -> Vec<Token> {
 }
 
 /// Whether the next digit is a separate number: in `\tfrac12`, each digit is one.
-fn is_digit_of_fraction(before: &[Token]) -> bool {
+fn is_digit_of_fraction(before: &[FormulaToken]) -> bool {
     match before {
-        [.., Token::Command(c)] | [.., Token::Command(c), Token::Number(..)] => c.ends_with("frac"),
+        [.., FormulaToken::Command(c)] | [.., FormulaToken::Command(c), FormulaToken::Number(..)] => {
+            c.ends_with("frac")
+        }
         _ => false,
     }
 }
 
 /// Adds the token of a TeX command with a name of this length.
-fn command(chars: &[char], i: &mut usize, name: String, length: usize, all: &mut Vec<Token>) {
+fn command(chars: &[char], i: &mut usize, name: String, length: usize, all: &mut Vec<FormulaToken>) {
     match name.as_str() {
         // Spaces and size commands are ignored.
         "" => *i += 1,
         "left" | "right" | "displaystyle" | "mathrm" | "text" | "ast" | "dot" => {}
-        "times" | "cdot" => all.push(Token::Sign('*')),
+        "times" | "cdot" => all.push(FormulaToken::Sign('*')),
         "frac" | "tfrac" | "dfrac" | "sqrt" | "sin" | "cos" | "tan" | "exp" | "ln" => {
-            all.push(Token::Command(name));
+            all.push(FormulaToken::Command(name));
         }
         _ => symbol(chars, i, name, length + 1, all),
     }
 }
 
 /// Adds a symbol with its subscript and star: `t^\ast`, `z_{k+1}`.
-fn symbol(chars: &[char], i: &mut usize, mut name: String, length: usize, all: &mut Vec<Token>) {
+fn symbol(chars: &[char], i: &mut usize, mut name: String, length: usize, all: &mut Vec<FormulaToken>) {
     let mut end = *i + length;
     if chars.get(end) == Some(&'_') {
         let braces = chars.get(end + 1) == Some(&'{');
@@ -194,12 +197,12 @@ fn symbol(chars: &[char], i: &mut usize, mut name: String, length: usize, all: &
             break;
         }
     }
-    all.push(Token::Symbol(name));
+    all.push(FormulaToken::Symbol(name));
     *i = end - length;
 }
 
-struct Parser<'a> {
-    tokens: &'a [Token],
+struct FormulaParser<'a> {
+    tokens: &'a [FormulaToken],
     at: usize,
     deep: usize,
     operations: usize,
@@ -207,9 +210,9 @@ struct Parser<'a> {
     bindings: &'a [Binding],
 }
 
-impl Parser<'_> {
+impl FormulaParser<'_> {
     fn sign(&mut self, c: char) -> bool {
-        let there = self.tokens.get(self.at) == Some(&Token::Sign(c));
+        let there = self.tokens.get(self.at) == Some(&FormulaToken::Sign(c));
         self.at += usize::from(there);
         there
     }
@@ -251,8 +254,10 @@ impl Parser<'_> {
             } else {
                 let written = self.sign('*');
                 let begins = match self.tokens.get(self.at) {
-                    Some(Token::Number(..)) => written,
-                    Some(Token::Symbol(_) | Token::Command(_) | Token::Sign('(' | '{')) => true,
+                    Some(FormulaToken::Number(..)) => written,
+                    Some(
+                        FormulaToken::Symbol(_) | FormulaToken::Command(_) | FormulaToken::Sign('(' | '{'),
+                    ) => true,
                     _ => written,
                 };
                 if !begins {
@@ -292,16 +297,16 @@ impl Parser<'_> {
         let token = self.tokens.get(self.at)?;
         self.at += 1;
         match token {
-            Token::Number(value, code) => Some(EvaluatedFormula { code: code.clone(), value: *value }),
-            Token::Symbol(name) => self.bound(name),
-            Token::Sign('(') => self.group(')'),
-            Token::Sign('{') => self.group('}'),
-            Token::Sign('-') => {
+            FormulaToken::Number(value, code) => Some(EvaluatedFormula { code: code.clone(), value: *value }),
+            FormulaToken::Symbol(name) => self.bound(name),
+            FormulaToken::Sign('(') => self.group(')'),
+            FormulaToken::Sign('{') => self.group('}'),
+            FormulaToken::Sign('-') => {
                 let inner = self.product()?;
                 Some(EvaluatedFormula { code: format!("(-{})", inner.code), value: -inner.value })
             }
-            Token::Sign(_) => None,
-            Token::Command(name) if name.ends_with("frac") => {
+            FormulaToken::Sign(_) => None,
+            FormulaToken::Command(name) if name.ends_with("frac") => {
                 let (above, below) = (self.atom()?, self.atom()?);
                 self.operations += 1;
                 Some(EvaluatedFormula {
@@ -309,18 +314,18 @@ impl Parser<'_> {
                     value: above.value / below.value,
                 })
             }
-            Token::Command(name) => {
-                let of = self.atom()?;
+            FormulaToken::Command(name) => {
+                let operand = self.atom()?;
                 self.operations += 1;
                 let (function, value) = match name.as_str() {
-                    "sqrt" => ("sqrt", of.value.sqrt()),
-                    "sin" => ("sin", of.value.sin()),
-                    "cos" => ("cos", of.value.cos()),
-                    "tan" => ("tan", of.value.tan()),
-                    "exp" => ("exp", of.value.exp()),
-                    _ => ("log", of.value.ln()),
+                    "sqrt" => ("sqrt", operand.value.sqrt()),
+                    "sin" => ("sin", operand.value.sin()),
+                    "cos" => ("cos", operand.value.cos()),
+                    "tan" => ("tan", operand.value.tan()),
+                    "exp" => ("exp", operand.value.exp()),
+                    _ => ("log", operand.value.ln()),
                 };
-                Some(EvaluatedFormula { code: format!("Math.{function}({})", of.code), value })
+                Some(EvaluatedFormula { code: format!("Math.{function}({})", operand.code), value })
             }
         }
     }

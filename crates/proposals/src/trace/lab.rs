@@ -2,14 +2,14 @@
 
 use super::candidates::{Candidate, candidates};
 use super::restored;
-use super::trials::{Trial, trials};
+use super::trials::{TraceRun, trials};
 use super::words::text;
 use labspec::bind::Programs;
 use labspec::bind::scene::Models;
 use labspec::check;
 use labspec::run::StepVariant;
 use labspec::spec::{Lab, LabAddress, Lesson, Verify};
-use labspec::verify::{self, BoundLab, BoundVerify, Stage, Stated};
+use labspec::verify::{self, BoundLab, BoundVerify, RunCache, Stated};
 use labspec_core::Model;
 use std::ops::Range;
 use std::sync::Arc;
@@ -22,7 +22,7 @@ pub(crate) struct TracedLab<'l> {
     pub(crate) owner: Option<Range<usize>>,
     model: Arc<Model>,
     programs: Programs,
-    pub(crate) trials: Vec<Trial>,
+    pub(crate) trials: Vec<TraceRun>,
     pub(crate) candidates: Vec<Candidate>,
     /// The value of every candidate in every trial; NaN if there is none.
     pub(crate) values: Vec<Vec<f64>>,
@@ -35,7 +35,7 @@ impl<'l> TracedLab<'l> {
         (address, lab): (LabAddress, &'l Lab),
         numbers: &[Stated],
         models: &Models,
-        stage: &Stage<'_>,
+        stage: &RunCache<'_>,
     ) -> Option<TracedLab<'l>> {
         let (model, programs, _) = check::bind(lab, models, &mut Vec::new())?;
         let questions = lesson.quizzes.iter().flat_map(|quiz| quiz.numbered());
@@ -50,7 +50,12 @@ impl<'l> TracedLab<'l> {
     }
 
     /// Performs a run of the lab, and evaluates all measures. A run that fails has no values.
-    pub(crate) fn values_of(&self, trial: &Trial, stage: &Stage<'_>, numerics: StepVariant) -> Vec<f64> {
+    pub(crate) fn values_of(
+        &self,
+        trial: &TraceRun,
+        stage: &RunCache<'_>,
+        numerics: StepVariant,
+    ) -> Vec<f64> {
         let TracedLab { lab, model, programs, candidates, .. } = self;
         let none = || vec![f64::NAN; candidates.len()];
         let name = |i: usize| text(&format!("m{i}"));

@@ -6,7 +6,7 @@ use super::rank::{self, Origin};
 use labspec::bind::scene::Models;
 use labspec::interrupt;
 use labspec::spec::{LabAddress, Lesson};
-use labspec::verify::{PERTURBED_BACK, PERTURBED_START, Stage, Stated, answered, claimed, stated};
+use labspec::verify::{PERTURBED_BACK, PERTURBED_START, RunCache, Stated, answered, claimed, stated};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -30,7 +30,7 @@ pub struct Traces<'l> {
 /// of the current activity.
 pub fn trace<'l>(lesson: &'l Lesson, models: &Models, report_progress: &mut dyn FnMut(&str)) -> Traces<'l> {
     let numbers = stated(lesson);
-    let stage = Stage::new(models);
+    let stage = RunCache::new(models);
     let mut labs = Vec::new();
     for (address, lab) in lesson.addressed() {
         report_progress(&format!("trying lab {address}"));
@@ -52,7 +52,7 @@ pub fn trace<'l>(lesson: &'l Lesson, models: &Models, report_progress: &mut dyn 
 }
 
 /// Repeats the runs of the origins with perturbed starts: an origin whose digits change is unsteady.
-fn mark_unsteady(numbers: &[Stated], origins: &mut [Origin], labs: &[TracedLab<'_>], stage: &Stage<'_>) {
+fn mark_unsteady(numbers: &[Stated], origins: &mut [Origin], labs: &[TracedLab<'_>], stage: &RunCache<'_>) {
     let mut again: BTreeMap<(usize, usize), [Vec<f64>; 2]> = BTreeMap::new();
     for (s, origin) in numbers.iter().zip(origins) {
         let Origin::From(hit) = origin else { continue };

@@ -1,8 +1,8 @@
 //! The results as proposals for the author: a `verify` object for each lab.
 
 use super::lesson::Traces;
-use super::rank::{Hit, Origin};
-use super::trials::Trial;
+use super::rank::{MeasureMatch, Origin};
+use super::trials::TraceRun;
 use super::words::split_words;
 use labspec::json::Scalar;
 use labspec::spec::LabAddress;
@@ -15,7 +15,7 @@ pub fn blocks(found: &Traces<'_>) -> Vec<(LabAddress, ProposedVerify)> {
     let mut all = Vec::new();
     let mut quoted: Vec<&str> = Vec::new();
     let first = found.numbers.iter().find_map(|n| match &n.origin {
-        Origin::From(Hit { place: Some((lab, _)), .. }) => Some(*lab),
+        Origin::From(MeasureMatch { place: Some((lab, _)), .. }) => Some(*lab),
         _ => None,
     });
     for (l, tried) in found.labs.iter().enumerate() {
@@ -148,7 +148,7 @@ fn runs_by_name<S: Serializer>(
 
 impl ProposedVerify {
     /// Adds a measure in a run, and returns its name.
-    pub(crate) fn measured(&mut self, place: usize, trial: Option<&Trial>, text: &str) -> String {
+    pub(crate) fn measured(&mut self, place: usize, trial: Option<&TraceRun>, text: &str) -> String {
         let used: Vec<&str> = self.runs.values().map(|(name, _)| name.as_str()).collect();
         let run = match (self.runs.get(&place), trial) {
             (Some((name, _)), _) => name.clone(),
@@ -204,7 +204,7 @@ fn free(name: String, used: &[&str]) -> String {
 }
 
 /// The settings of a run.
-fn run(trial: &Trial) -> ProposedRun {
+fn run(trial: &TraceRun) -> ProposedRun {
     let scalar = |value: &Scalar| match value {
         Scalar::Number(n) => n.value.into(),
         Scalar::Text(text) => text.value.as_str().into(),

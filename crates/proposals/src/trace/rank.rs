@@ -3,7 +3,7 @@
 use super::candidates::Candidate;
 use super::formula::{self, Binding};
 use super::lab::TracedLab;
-use super::trials::Trial;
+use super::trials::TraceRun;
 use super::units::si;
 use super::words::split_words;
 use labspec::verify::Stated;
@@ -15,20 +15,20 @@ pub enum Origin {
     /// The lesson already claims it, so a check computes it.
     Claimed,
     /// This measure has its digits.
-    From(Hit),
+    From(MeasureMatch),
     /// This measure has its digits, but other digits if the start is perturbed slightly, so that no reader can reproduce them.
-    Unsteady(Hit),
+    Unsteady(MeasureMatch),
     /// The text uses the number as a setting, so it is not the result of a run.
     Setting(String),
     /// A measure has its digits, but chance explains the match.
-    Chance(Hit),
+    Chance(MeasureMatch),
     /// No candidate has its digits.
     Unknown,
 }
 
 /// A measure that has the digits of a number.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Hit {
+pub struct MeasureMatch {
     /// The indexes of the lab and the run; `None` for an evaluated formula.
     pub place: Option<(usize, usize)>,
     /// The measure or the formula.
@@ -41,10 +41,10 @@ pub struct Hit {
     pub chance: f64,
 }
 
-impl Hit {
+impl MeasureMatch {
     /// The expression for the number in the text: `1000 * (a - b)`.
     pub fn description(&self) -> String {
-        let Hit { factor, measure, .. } = self;
+        let MeasureMatch { factor, measure, .. } = self;
         let mut deep = 0;
         let sum = measure.char_indices().any(|(i, c)| {
             deep += i32::from(c == '(') - i32::from(c == ')');
@@ -86,11 +86,11 @@ const EXACT: f64 = 0.5;
 const MIN_COST_RATIO: f64 = 1.2;
 
 /// A candidate with the digits of a number, and its cost.
-struct Match {
+struct CandidateMatch {
     cost: f64,
     /// Whether it is a constant of the model.
     constant: bool,
-    hit: Hit,
+    hit: MeasureMatch,
 }
 
 /// Determines the origin of a number.
@@ -107,7 +107,7 @@ pub(super) fn origin(s: &Stated, numbers: &[Stated], labs: &[TracedLab<'_>], bin
     let (tried, mut matches) = compare_values(s, &around, labs);
     matches.sort_by(|a, b| a.cost.total_cmp(&b.cost));
     let ambiguous = is_ambiguous(&matches);
-    let Some(Match { cost, mut hit, .. }) = matches.into_iter().next() else {
+    let Some(CandidateMatch { cost, mut hit, .. }) = matches.into_iter().next() else {
         return around.setting(s, labs).map_or(Origin::Unknown, Origin::Setting);
     };
     // Both constants and rounded numbers have few digits, so exact equality of a constant is weaker evidence.
@@ -129,9 +129,9 @@ fn compare_values(
     s: &Stated,
     around: &NumberContext<'_>,
     labs: &[TracedLab<'_>],
-) -> (Vec<(f64, f64)>, Vec<Match>) {
+) -> (Vec<(f64, f64)>, Vec<CandidateMatch>) {
     let mut tried: Vec<(f64, f64)> = Vec::new();
-    let mut matches: Vec<Match> = Vec::new();
+    let mut matches: Vec<CandidateMatch> = Vec::new();
     let distances = distances(s, labs);
     for (l, lab) in labs.iter().enumerate() {
         let far = distances.get(l).copied().unwrap_or(0.0);
@@ -157,10 +157,10 @@ fn compare_values(
                     }
                     let (place, measure, factor) = (Some((l, t)), c.text.clone(), factor(sign, ratio));
                     let exact = if close(value, s.read.value) { EXACT } else { 0.0 };
-                    matches.push(Match {
+                    matches.push(CandidateMatch {
                         cost: cost + more - exact,
                         constant: c.constant,
-                        hit: Hit { place, measure, factor, value, chance: 1.0 },
+                        hit: MeasureMatch { place, measure, factor, value, chance: 1.0 },
                     });
                 }
             }
@@ -170,10 +170,11 @@ fn compare_values(
 }
 
 /// Whether the best match is a constant, and a constant of another kind is about as good.
-fn is_ambiguous(matches: &[Match]) -> bool {
+fn is_ambiguous(matches: &[CandidateMatch]) -> bool {
     let [best, others @ ..] = matches else { return false };
-    let kind = |m: &Match| m.hit.measure.rsplit('.').next().unwrap_or("").to_string();
-    let rivals = |m: &Match| m.constant && m.cost - best.cost < MIN_COST_RATIO && kind(m) != kind(best);
+    let kind = |m: &CandidateMatch| m.hit.measure.rsplit('.').next().unwrap_or("").to_string();
+    let rivals =
+        |m: &CandidateMatch| m.constant && m.cost - best.cost < MIN_COST_RATIO && kind(m) != kind(best);
     best.constant && others.iter().any(rivals)
 }
 
@@ -211,9 +212,9 @@ fn close(a: f64, b: f64) -> bool {
 }
 
 /// The formula before a number, if it has its digits. `window` is the share of numbers that have them.
-fn formula_hit(s: &Stated, bindings: &[Binding], window: f64) -> Option<Hit> {
+fn formula_hit(s: &Stated, bindings: &[Binding], window: f64) -> Option<MeasureMatch> {
     let found = formula::before(s, bindings)?;
-    let hit = |factor: String, value: f64| Hit {
+    let hit = |factor: String, value: f64| MeasureMatch {
         place: None,
         measure: found.code.clone(),
         factor,
@@ -299,7 +300,7 @@ impl<'n> NumberContext<'n> {
     }
 
     /// The cost of a run for this number.
-    fn cost(&self, trial: &Trial, all: &[Trial]) -> f64 {
+    fn cost(&self, trial: &TraceRun, all: &[TraceRun]) -> f64 {
         let restored = if trial.restored.is_some() { RESTORED } else { 0.0 };
         restored + self.cost_of_setting(trial, all)
     }
@@ -319,7 +320,7 @@ impl<'n> NumberContext<'n> {
             - PARAGRAPH_REWARD * wide as f64
     }
 
-    fn cost_of_setting(&self, trial: &Trial, all: &[Trial]) -> f64 {
+    fn cost_of_setting(&self, trial: &TraceRun, all: &[TraceRun]) -> f64 {
         if let Some((x, unit)) = trial.named {
             let is = |n: &&&Stated| n.dimension.agrees(&unit) && close(si(n), x);
             // "29 mm at h = 2 ms" is not a number of a run at 10 ms.
@@ -344,8 +345,9 @@ impl<'n> NumberContext<'n> {
 
     /// The setting that has this number as its value, if there is one.
     fn setting(&self, s: &Stated, labs: &[TracedLab<'_>]) -> Option<String> {
-        let of =
-            |trial: &Trial| trial.named.is_some_and(|(x, unit)| unit.agrees(&s.dimension) && close(x, si(s)));
-        labs.iter().flat_map(|l| &l.trials).find(|t| of(t)).map(|t| t.words.clone())
+        let has_value = |trial: &TraceRun| {
+            trial.named.is_some_and(|(x, unit)| unit.agrees(&s.dimension) && close(x, si(s)))
+        };
+        labs.iter().flat_map(|l| &l.trials).find(|t| has_value(t)).map(|t| t.words.clone())
     }
 }

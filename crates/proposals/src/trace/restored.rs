@@ -1,7 +1,7 @@
 //! Runs with the model as in its file. The setup of a lab, especially of a question, may change its model ("the cube weighs 1.2
 //! kg"), while the text still refers to the model that the course has used so far.
 
-use super::trials::{MOST, Trial};
+use super::trials::{MOST, TraceRun};
 use labspec::bind::{ControlProgram, Programs, functions};
 use labspec::run::{Budget, Session, Start};
 use labspec::spec::Lab;
@@ -12,16 +12,16 @@ use labspec_core::reflect::{FieldId, Object};
 const CHANGED: usize = 8;
 
 /// The runs of a lab, followed by the first one and those with a button, with the model as in its file.
-pub(super) fn with(mut all: Vec<Trial>, lab: &Lab, model: &Model, programs: &Programs) -> Vec<Trial> {
+pub(super) fn with(mut all: Vec<TraceRun>, lab: &Lab, model: &Model, programs: &Programs) -> Vec<TraceRun> {
     let Some(statements) = statements(lab, model, programs) else { return all };
-    let again = |(at, trial): (usize, &Trial)| {
-        (at == 0 || !trial.press.is_empty()).then(|| Trial {
+    let again = |(at, trial): (usize, &TraceRun)| {
+        (at == 0 || !trial.press.is_empty()).then(|| TraceRun {
             words: format!("{}, with the model as in its file", trial.words),
             restored: Some(statements.clone()),
             ..trial.clone()
         })
     };
-    let more: Vec<Trial> = all.iter().enumerate().filter_map(again).collect();
+    let more: Vec<TraceRun> = all.iter().enumerate().filter_map(again).collect();
     all.extend(more);
     all.truncate(MOST);
     all
@@ -46,12 +46,12 @@ fn statements(lab: &Lab, model: &Model, programs: &Programs) -> Option<String> {
     for write in writes {
         let field = FieldId::new(write.field.0 as usize).filter(|f| of_model(Some(*f)));
         let Some(field) = field.filter(|_| !set.contains(&write.field)) else { continue };
-        let (initial, now) = (model.field(field)?, session.world.model.field(field)?);
+        let (initial, current) = (model.field(field)?, session.world.model.field(field)?);
         let end = write.count.map_or(initial.len(), |n| write.first + n).min(initial.len());
         for i in write.first..end {
-            let (initial, now) = (initial.get(i)?, now.get(i)?);
+            let (initial, current) = (initial.get(i)?, current.get(i)?);
             let statement = format!("{} = {initial}", element(field, i));
-            if initial != now && initial.is_finite() && !all.contains(&statement) {
+            if initial != current && initial.is_finite() && !all.contains(&statement) {
                 all.push(statement);
             }
         }

@@ -13,7 +13,7 @@ use labspec_expr::dimension::{Dimension, Measure};
 
 /// A run.
 #[derive(Clone, Debug)]
-pub(crate) struct Trial {
+pub(crate) struct TraceRun {
     /// A description: "as it stands", "\"mass\" at 5".
     pub(crate) words: String,
     /// The labels of controls, and their values.
@@ -41,10 +41,10 @@ pub(super) const MOST: usize = 40;
 const LENGTH: f64 = 10.0;
 
 /// The runs of a lab.
-pub(crate) fn trials(lab: &Lab, numbers: &[Stated]) -> Vec<Trial> {
+pub(crate) fn trials(lab: &Lab, numbers: &[Stated]) -> Vec<TraceRun> {
     let windows = lab.plots.iter().filter_map(|plot| plot.window.as_ref()).map(|w| w.value);
     let length = windows.fold(RUN_LENGTH, f64::max).min(LENGTH);
-    let base = Trial {
+    let base = TraceRun {
         words: "as it stands".into(),
         set: Vec::new(),
         press: Vec::new(),
@@ -77,7 +77,7 @@ pub(crate) fn trials(lab: &Lab, numbers: &[Stated]) -> Vec<Trial> {
                 timesteps.push(value);
                 let words = format!("with a timestep of {value} s");
                 let named = Some((value, second()));
-                all.push(Trial { words, timestep: Some(value), named, ..base.clone() });
+                all.push(TraceRun { words, timestep: Some(value), named, ..base.clone() });
             }
         }
     }
@@ -86,7 +86,7 @@ pub(crate) fn trials(lab: &Lab, numbers: &[Stated]) -> Vec<Trial> {
 }
 
 /// Adds the runs in which a control has a value that the text names.
-fn add_control_trials(control: &Control, numbers: &[Stated], base: &Trial, all: &mut Vec<Trial>) {
+fn add_control_trials(control: &Control, numbers: &[Stated], base: &TraceRun, all: &mut Vec<TraceRun>) {
     let label = control.label.as_str();
     match &control.kind {
         ControlKind::Slider { value: start, .. } => {
@@ -98,7 +98,7 @@ fn add_control_trials(control: &Control, numbers: &[Stated], base: &Trial, all: 
                 if reached && x != start.value && !values.contains(&x) && values.len() < VALUES {
                     values.push(x);
                     let scalar = Scalar::Number(Number { value: x, span: 0..0 });
-                    all.push(Trial {
+                    all.push(TraceRun {
                         words: format!("with \"{label}\" at {x}"),
                         set: vec![(label.to_string(), scalar)],
                         named: Some((x / unit.factor, unit.times(1.0 / unit.factor))),
@@ -111,7 +111,7 @@ fn add_control_trials(control: &Control, numbers: &[Stated], base: &Trial, all: 
         ControlKind::Select { options, value, .. } => {
             let start = scalar(value);
             for choice in options.iter().filter(|c| scalar(&c.value) != start).take(VALUES) {
-                all.push(Trial {
+                all.push(TraceRun {
                     words: format!("with \"{label}\" at \"{}\"", choice.text.as_str()),
                     set: vec![(label.to_string(), choice.value.clone())],
                     label: choice.text.value.clone(),
@@ -119,7 +119,7 @@ fn add_control_trials(control: &Control, numbers: &[Stated], base: &Trial, all: 
                 });
             }
         }
-        ControlKind::Button { .. } => all.push(Trial {
+        ControlKind::Button { .. } => all.push(TraceRun {
             words: format!("after \"{label}\" is pressed"),
             press: vec![label.to_string()],
             label: label.to_string(),
@@ -128,10 +128,10 @@ fn add_control_trials(control: &Control, numbers: &[Stated], base: &Trial, all: 
     }
 }
 
-impl Trial {
+impl TraceRun {
     /// Whether both runs set the same controls.
-    pub(super) fn sets_same_controls(&self, other: &Trial) -> bool {
-        let labels = |t: &Trial| t.set.iter().map(|(label, _)| label.clone()).collect::<Vec<_>>();
+    pub(super) fn sets_same_controls(&self, other: &TraceRun) -> bool {
+        let labels = |t: &TraceRun| t.set.iter().map(|(label, _)| label.clone()).collect::<Vec<_>>();
         self.timestep.is_some() == other.timestep.is_some() && labels(self) == labels(other)
     }
 

@@ -29,7 +29,7 @@ pub(super) struct Ask {
 }
 
 /// A lesson of a request, whose text is the one that the page shows.
-struct Asked<'s> {
+struct RequestedLesson<'s> {
     served: &'s ServedLesson,
     lesson: &'s Lesson,
 }
@@ -65,18 +65,18 @@ pub(super) fn act(
     }
 }
 
-fn find_lesson<'s>(ask: &Ask, snapshot: &'s Snapshot) -> Result<Asked<'s>, Refused> {
+fn find_lesson<'s>(ask: &Ask, snapshot: &'s Snapshot) -> Result<RequestedLesson<'s>, Refused> {
     let none = || (404, "this lesson is not part of the course any more".to_string());
     let served = snapshot.lessons.get(&ask.page).ok_or_else(none)?;
     let checked = snapshot.course.lessons.get(served.index).ok_or_else(none)?;
     if served.hash != ask.hash {
         return Err((409, "the file has changed since this page was shown; try again".into()));
     }
-    Ok(Asked { served, lesson: &checked.lesson })
+    Ok(RequestedLesson { served, lesson: &checked.lesson })
 }
 
 /// The bytes of a block that the page shows.
-fn block_span(ask: &Ask, asked: &Asked<'_>) -> Result<Range<usize>, Refused> {
+fn block_span(ask: &Ask, asked: &RequestedLesson<'_>) -> Result<Range<usize>, Refused> {
     let span = ask.start.zip(ask.end).map(|(start, end)| start..end);
     span.filter(|span| asked.served.blocks.contains(span))
         .ok_or((400, "the request names no block of this page".into()))
@@ -86,7 +86,7 @@ fn conflict(why: String) -> Refused {
     (409, why)
 }
 
-fn edit(ask: &Ask, asked: &Asked<'_>, backend: &dyn Backend) -> Result<Value, Refused> {
+fn edit(ask: &Ask, asked: &RequestedLesson<'_>, backend: &dyn Backend) -> Result<Value, Refused> {
     let span = block_span(ask, asked)?;
     let text = ask.text.as_deref().ok_or((400, "the request has no text".to_string()))?;
     let old = asked.lesson.file.text();
@@ -106,14 +106,14 @@ fn edit(ask: &Ask, asked: &Asked<'_>, backend: &dyn Backend) -> Result<Value, Re
     Ok(json!({ "ok": true }))
 }
 
-fn fix(ask: &Ask, asked: &Asked<'_>, backend: &dyn Backend) -> Result<Value, Refused> {
+fn fix(ask: &Ask, asked: &RequestedLesson<'_>, backend: &dyn Backend) -> Result<Value, Refused> {
     let finding = ask.finding.and_then(|number| asked.served.findings.get(number));
     let finding = finding.filter(|f| f.fix.is_some()).ok_or((400, "this finding has no fix".to_string()))?;
     backend.fix(&asked.served.path, asked.lesson, finding).map_err(conflict)?;
     Ok(json!({ "ok": true }))
 }
 
-fn propose(ask: &Ask, asked: &Asked<'_>, backend: &dyn Backend) -> Result<Value, Refused> {
+fn propose(ask: &Ask, asked: &RequestedLesson<'_>, backend: &dyn Backend) -> Result<Value, Refused> {
     let block = block_span(ask, asked)?;
     let blocks = &asked.served.blocks;
     let is_here =
@@ -134,7 +134,7 @@ fn propose(ask: &Ask, asked: &Asked<'_>, backend: &dyn Backend) -> Result<Value,
     Ok(json!({ "proposals": all }))
 }
 
-fn accept(ask: &Ask, asked: &Asked<'_>, backend: &dyn Backend) -> Result<Value, Refused> {
+fn accept(ask: &Ask, asked: &RequestedLesson<'_>, backend: &dyn Backend) -> Result<Value, Refused> {
     let proposals = asked.served.proposals.get();
     let chosen = ask
         .proposal

@@ -67,7 +67,7 @@ impl Opened {
         self.document.check(&self.context);
         let lesson = self.document.read_lesson(&self.context);
         let file = &self.document.file;
-        let place = Place::new(file.text(), &self.block);
+        let place = BlockPlace::new(file.text(), &self.block);
         let here = self.document.findings.iter().filter(|f| f.path == *file.path());
         let all = here.filter_map(|f| {
             let (start, end) = place.range(&f.span)?;
@@ -80,16 +80,16 @@ impl Opened {
     }
 
     fn completions(&mut self, offset: usize) -> Value {
-        let byte = Place::new(self.document.file.text(), &self.block).byte(offset);
+        let byte = BlockPlace::new(self.document.file.text(), &self.block).byte(offset);
         let all = completions(&mut self.document, &self.context, byte);
-        let place = Place::new(self.document.file.text(), &self.block);
+        let place = BlockPlace::new(self.document.file.text(), &self.block);
         json!({ "completions": all.iter().filter_map(|c| place.completion(c)).collect::<Vec<_>>() })
     }
 
     fn hover(&mut self, offset: usize) -> Value {
-        let byte = Place::new(self.document.file.text(), &self.block).byte(offset);
+        let byte = BlockPlace::new(self.document.file.text(), &self.block).byte(offset);
         let found = hover(&mut self.document, &mut self.context, byte);
-        let place = Place::new(self.document.file.text(), &self.block);
+        let place = BlockPlace::new(self.document.file.text(), &self.block);
         let found = found.and_then(|hover| {
             let (start, end) = place.range(&hover.span)?;
             Some(json!({ "start": start, "end": end, "text": hover.text }))
@@ -111,7 +111,7 @@ fn finding(f: &Finding, start: usize, end: usize, fixes: &[Value]) -> Value {
 }
 
 /// The place of the block in the lesson.
-struct Place<'t> {
+struct BlockPlace<'t> {
     offsets: Utf16Offsets<'t>,
     block: &'t Range<usize>,
     /// The offset of the block, and that of its end.
@@ -119,11 +119,11 @@ struct Place<'t> {
     last: usize,
 }
 
-impl<'t> Place<'t> {
-    fn new(text: &'t str, block: &'t Range<usize>) -> Place<'t> {
+impl<'t> BlockPlace<'t> {
+    fn new(text: &'t str, block: &'t Range<usize>) -> BlockPlace<'t> {
         let offsets = Utf16Offsets::new(text);
         let (first, last) = (offsets.of_byte(block.start), offsets.of_byte(block.end));
-        Place { offsets, block, first, last }
+        BlockPlace { offsets, block, first, last }
     }
 
     /// The byte of the lesson at an offset of the block.

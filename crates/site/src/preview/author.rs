@@ -21,7 +21,7 @@ pub(super) fn text_hash(text: &str) -> String {
     hex_of(&[text.as_bytes()])
 }
 
-/// A lesson with everything that is said about it.
+/// A lesson with its findings, completions and claims.
 pub(super) struct AuthorView<'v> {
     pub(super) checked: &'v Checked,
     pub(super) page: &'v LessonPage,

@@ -2,7 +2,7 @@
 //! can send requests to it: a request must name this address (a name of another site may lead here), come from a page of this
 //! address, and carry the token of the page where it changes something.
 
-use super::http::Head;
+use super::http::RequestHead;
 use crate::page::POLICY;
 
 /// The prefix of addresses that are not files of the site.
@@ -12,7 +12,7 @@ const TOKEN: &str = "x-labspec-token";
 
 /// What the server knows of itself.
 #[derive(Debug)]
-pub(super) struct Identity {
+pub(super) struct ServerIdentity {
     /// `127.0.0.1:8000`.
     pub(super) host: String,
     /// What a page proves that it was served from here.
@@ -22,21 +22,21 @@ pub(super) struct Identity {
 /// A request that is refused: its status and the reason.
 pub(super) type Refusal = (u16, &'static str);
 
-impl Identity {
+impl ServerIdentity {
     /// An identity with a new token.
     ///
     /// # Errors
     /// The system has no random numbers.
-    pub(super) fn new(port: u16) -> Result<Identity, String> {
+    pub(super) fn new(port: u16) -> Result<ServerIdentity, String> {
         let mut bytes = [0; 24];
         getrandom::fill(&mut bytes)
             .map_err(|e| format!("no random numbers for the token of the page: {e}"))?;
         let token = bytes.iter().map(|byte| format!("{byte:02x}")).collect();
-        Ok(Identity { host: format!("127.0.0.1:{port}"), token })
+        Ok(ServerIdentity { host: format!("127.0.0.1:{port}"), token })
     }
 
     /// Tests a request before anything else is done with it.
-    pub(super) fn check(&self, request: &Head) -> Result<(), Refusal> {
+    pub(super) fn check(&self, request: &RequestHead) -> Result<(), Refusal> {
         if request.headers("host") != [self.host.as_str()] {
             return Err((
                 403,

@@ -20,7 +20,7 @@ pub(super) type Refused = (u16, String);
 
 /// The head of a request.
 #[derive(Debug, Default)]
-pub(super) struct Head {
+pub(super) struct RequestHead {
     pub(super) method: String,
     /// The path with its query, as the browser wrote it.
     pub(super) target: String,
@@ -29,7 +29,7 @@ pub(super) struct Head {
     rest: Vec<u8>,
 }
 
-impl Head {
+impl RequestHead {
     /// The values of a header.
     pub(super) fn headers(&self, name: &str) -> Vec<&str> {
         let all = self.headers.iter().filter(|(header, _)| header.eq_ignore_ascii_case(name));
@@ -49,7 +49,7 @@ impl Head {
 ///
 /// # Errors
 /// The connection was closed, or this is no request of HTTP 1.
-pub(super) fn read_head(stream: &mut TcpStream) -> io::Result<Head> {
+pub(super) fn read_head(stream: &mut TcpStream) -> io::Result<RequestHead> {
     stream.set_read_timeout(Some(PATIENCE))?;
     stream.set_write_timeout(Some(PATIENCE))?;
     // Answers are written at once, however small.
@@ -64,7 +64,7 @@ pub(super) fn read_head(stream: &mut TcpStream) -> io::Result<Head> {
         match request.parse(&bytes).map_err(|_| wrong())? {
             httparse::Status::Complete(end) => {
                 let text = |value: &[u8]| String::from_utf8_lossy(value).trim().to_string();
-                return Ok(Head {
+                return Ok(RequestHead {
                     method: request.method.unwrap_or("").to_string(),
                     target: request.path.unwrap_or("").to_string(),
                     headers: request.headers.iter().map(|h| (h.name.to_string(), text(h.value))).collect(),
@@ -78,7 +78,11 @@ pub(super) fn read_head(stream: &mut TcpStream) -> io::Result<Head> {
 }
 
 /// Reads the body of a request of at most `limit` bytes; `None` where it is longer, or its length is not stated.
-pub(super) fn read_body(stream: &mut TcpStream, head: &Head, limit: u64) -> io::Result<Option<Vec<u8>>> {
+pub(super) fn read_body(
+    stream: &mut TcpStream,
+    head: &RequestHead,
+    limit: u64,
+) -> io::Result<Option<Vec<u8>>> {
     let Some(length) = head.length().filter(|length| *length <= limit) else { return Ok(None) };
     let mut body = head.rest.clone();
     let missing = length.saturating_sub(body.len() as u64);
@@ -87,7 +91,7 @@ pub(super) fn read_body(stream: &mut TcpStream, head: &Head, limit: u64) -> io::
 }
 
 /// Reads the rest of a refused request: closing a connection with unread bytes may lose the answer.
-pub(super) fn drain(stream: &mut TcpStream, head: &Head) {
+pub(super) fn drain(stream: &mut TcpStream, head: &RequestHead) {
     let missing = head.length().unwrap_or(0).saturating_sub(head.rest.len() as u64).min(MAX_DRAINED);
     // The answer matters more than the rest.
     let _ = io::copy(&mut stream.take(missing), &mut io::sink());

@@ -3,9 +3,9 @@
 use super::actions::{Ask, act};
 use super::backend::{Backend, CourseCheck, Fingerprint};
 use super::events::EventHub;
-use super::guard::{ACTIONS, Identity, headers};
-use super::http::{Head, drain, read_body, read_head, write_answer};
-use super::snapshot::{Material, Snapshot};
+use super::guard::{ACTIONS, ServerIdentity, headers};
+use super::http::{RequestHead, drain, read_body, read_head, write_answer};
+use super::snapshot::{Snapshot, SnapshotMaterial};
 use crate::assets::PageFiles;
 use crate::site::{SiteFile, SiteOptions};
 use labspec::check::CheckLevel;
@@ -35,8 +35,8 @@ pub struct PreviewOptions {
 
 /// The state that all threads share.
 struct Shared<'s> {
-    material: Material<'s>,
-    identity: &'s Identity,
+    material: SnapshotMaterial<'s>,
+    identity: &'s ServerIdentity,
     hub: EventHub,
     snapshot: Mutex<Arc<Snapshot>>,
     /// The files of the newest version, and whether the whole check of it is made.
@@ -62,8 +62,9 @@ pub fn serve(
         format!("cannot listen on 127.0.0.1:{}: {e}; choose another port with --port", options.port)
     })?;
     let port = listener.local_addr().map_or(options.port, |address| address.port());
-    let identity = Identity::new(port)?;
-    let material = Material { backend, folder, options: &options.site, page_files, token: &identity.token };
+    let identity = ServerIdentity::new(port)?;
+    let material =
+        SnapshotMaterial { backend, folder, options: &options.site, page_files, token: &identity.token };
     let before = backend.fingerprint(&Default::default());
     let course = Arc::new(backend.check(CheckLevel::STATIC)?);
     let first = Snapshot::new(&material, course, 1, false, None);
@@ -130,12 +131,12 @@ impl Shared<'_> {
 
     /// Publishes the pages of a check. A check that fails keeps the lessons of the last one, with the reason.
     fn publish(&self, check: Result<CourseCheck, String>, is_checked: bool) {
-        let now = self.current();
+        let served = self.current();
         let (course, problem) = match check {
             Ok(course) => (Arc::new(course), None),
-            Err(why) => (now.course.clone(), Some(why)),
+            Err(why) => (served.course.clone(), Some(why)),
         };
-        let version = now.version + 1;
+        let version = served.version + 1;
         let made = threads::catch_panic(|| {
             Snapshot::new(&self.material, course, version, is_checked, problem.as_deref())
         });
@@ -154,15 +155,15 @@ impl Shared<'_> {
     fn follow_files(&self) {
         loop {
             std::thread::sleep(PAUSE);
-            let now = self.fingerprint();
-            if locked(&self.newest).0 == now {
+            let fingerprint = self.fingerprint();
+            if locked(&self.newest).0 == fingerprint {
                 continue;
             }
             let check = self.check(CheckLevel::STATIC);
             let mut newest = locked(&self.newest);
             self.publish(check, false);
             // Files that the new text is the first to name are part of the next inspection.
-            *newest = (self.fingerprint_after(now), false);
+            *newest = (self.fingerprint_after(fingerprint), false);
             drop(newest);
             self.changed.notify_all();
         }
@@ -202,7 +203,7 @@ impl Shared<'_> {
         let answer = match self.identity.check(&head) {
             Err((status, why)) => {
                 drain(&mut stream, &head);
-                Answer::refusal(status, why)
+                Response::refusal(status, why)
             }
             Ok(()) => match path.strip_prefix(ACTIONS) {
                 Some("events") if head.method == "GET" => {
@@ -210,7 +211,7 @@ impl Shared<'_> {
                     return Ok(());
                 }
                 Some(action) if head.method == "POST" => self.act(action, &head, &mut stream)?,
-                Some(_) => Answer::refusal(405, "the preview answers this request with POST"),
+                Some(_) => Response::refusal(405, "the preview answers this request with POST"),
                 None => self.file(path),
             },
         };
@@ -219,29 +220,29 @@ impl Shared<'_> {
     }
 
     /// A file of the site. Only names of such files are found, so that no path leads out of it.
-    fn file(&self, path: &str) -> Answer {
+    fn file(&self, path: &str) -> Response {
         let name = percent_decode_str(path.trim_start_matches('/')).decode_utf8_lossy();
         let name = if name.is_empty() { "index.html" } else { &*name };
         let (kind, is_copied) = (kind_of(name), !name.starts_with("page/"));
         match self.current().files.get(name) {
             Some(SiteFile::Text(text)) => {
-                Answer { status: 200, kind, is_copied: false, body: text.clone().into_bytes() }
+                Response { status: 200, kind, is_copied: false, body: text.clone().into_bytes() }
             }
             Some(SiteFile::Copy(file)) => match std::fs::read(file) {
-                Ok(body) => Answer { status: 200, kind, is_copied, body },
-                Err(_) => Answer::refusal(404, "this file cannot be read"),
+                Ok(body) => Response { status: 200, kind, is_copied, body },
+                Err(_) => Response::refusal(404, "this file cannot be read"),
             },
-            None => Answer::refusal(404, "the course has no such page"),
+            None => Response::refusal(404, "the course has no such page"),
         }
     }
 
     /// Does what a page asks for.
-    fn act(&self, action: &str, head: &Head, stream: &mut TcpStream) -> std::io::Result<Answer> {
+    fn act(&self, action: &str, head: &RequestHead, stream: &mut TcpStream) -> std::io::Result<Response> {
         let Some(body) = read_body(stream, head, MAX_BODY)? else {
-            return Ok(Answer::refusal(413, "the request is too large, or does not state its length"));
+            return Ok(Response::refusal(413, "the request is too large, or does not state its length"));
         };
         let Ok(ask) = serde_json::from_slice::<Ask>(&body) else {
-            return Ok(Answer::refusal(400, "the request cannot be read"));
+            return Ok(Response::refusal(400, "the request cannot be read"));
         };
         let snapshot = self.current();
         let backend = self.material.backend;
@@ -253,15 +254,15 @@ impl Shared<'_> {
             _ => act(action, &ask, &snapshot, backend),
         });
         Ok(match done {
-            Ok(Ok(value)) => Answer::json(200, &value),
-            Ok(Err((status, why))) => Answer::refusal(status, &why),
-            Err(panic) => Answer::refusal(500, &format!("labspec failed: {panic}")),
+            Ok(Ok(value)) => Response::json(200, &value),
+            Ok(Err((status, why))) => Response::refusal(status, &why),
+            Err(panic) => Response::refusal(500, &format!("labspec failed: {panic}")),
         })
     }
 }
 
 /// What a request gets.
-struct Answer {
+struct Response {
     status: u16,
     kind: &'static str,
     /// Whether it is a file of the course.
@@ -269,13 +270,13 @@ struct Answer {
     body: Vec<u8>,
 }
 
-impl Answer {
-    fn json(status: u16, value: &serde_json::Value) -> Answer {
-        Answer { status, kind: "application/json", is_copied: false, body: value.to_string().into_bytes() }
+impl Response {
+    fn json(status: u16, value: &serde_json::Value) -> Response {
+        Response { status, kind: "application/json", is_copied: false, body: value.to_string().into_bytes() }
     }
 
-    fn refusal(status: u16, why: &str) -> Answer {
-        Answer::json(status, &serde_json::json!({ "error": why }))
+    fn refusal(status: u16, why: &str) -> Response {
+        Response::json(status, &serde_json::json!({ "error": why }))
     }
 }
 

@@ -43,7 +43,7 @@ pub(super) struct Snapshot {
 }
 
 /// What a snapshot is made of.
-pub(super) struct Material<'m> {
+pub(super) struct SnapshotMaterial<'m> {
     pub(super) backend: &'m dyn Backend,
     pub(super) folder: &'m Path,
     pub(super) options: &'m SiteOptions,
@@ -54,7 +54,7 @@ pub(super) struct Material<'m> {
 impl Snapshot {
     /// Writes all pages.
     pub(super) fn new(
-        material: &Material<'_>,
+        material: &SnapshotMaterial<'_>,
         course: Arc<CourseCheck>,
         version: u64,
         is_checked: bool,
@@ -101,7 +101,7 @@ impl Snapshot {
 
     fn add_lessons(
         &mut self,
-        material: &Material<'_>,
+        material: &SnapshotMaterial<'_>,
         written: &CoursePages,
         is_checked: bool,
         problem: Option<&str>,

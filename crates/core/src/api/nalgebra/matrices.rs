@@ -17,9 +17,9 @@ pub struct PointJacobian {
 }
 
 impl PointJacobian {
-    fn from_rows(m: &Model, of: &call::Jacobian) -> PointJacobian {
+    fn from_rows(m: &Model, jacobian: &call::Jacobian) -> PointJacobian {
         let matrix = |rows: &[f64]| DMatrix::from_row_slice(3, m.nv, rows);
-        PointJacobian { translation: matrix(&of.jacp), rotation: matrix(&of.jacr) }
+        PointJacobian { translation: matrix(&jacobian.jacp), rotation: matrix(&jacobian.jacr) }
     }
 }
 

@@ -8,25 +8,25 @@ use crate::mjcf::context::Context;
 use crate::mjcf::gather::listed;
 use crate::mjcf::rules;
 use crate::mjcf::spec::{ActuatorSpec, BodySpec, JointSpec, RangeSpec, TendonSpec};
-use crate::mjcf::text::diagnostic::Reported;
-use crate::mjcf::text::tree::Node;
+use crate::mjcf::text::diagnostic::ReportedFinding;
+use crate::mjcf::text::tree::ElementNode;
 
 /// Completes an actuator and reports inconsistent parts.
 pub(crate) fn finish(
     a: &mut ActuatorSpec,
     cx: &mut Context,
-    node: &Node,
+    node: &ElementNode,
     bodies: &[BodySpec],
     tendons: &[TendonSpec],
 ) {
-    let mut check = Check { cx, node };
+    let mut check = ActuatorCheck { cx, node };
     if a.inheritrange > 0.0 {
         check.inherit(a, bodies, tendons);
     }
-    for (limit, of) in
+    for (limit, kind) in
         [(&mut a.ctrl, &limits::CONTROL), (&mut a.force, &limits::FORCE), (&mut a.act, &limits::ACTIVATION)]
     {
-        check.limit(limit, of);
+        check.limit(limit, kind);
     }
     check.family(a);
     check.numbers(a);
@@ -66,24 +66,24 @@ pub(crate) fn outputs(a: &ActuatorSpec) -> usize {
     if a.transmission.is_some_and(|t| t.kind == trntype::SO3) { 3 } else { 1 }
 }
 
-struct Check<'c, 'a> {
+struct ActuatorCheck<'c, 'a> {
     cx: &'c mut Context<'a>,
-    node: &'c Node,
+    node: &'c ElementNode,
 }
 
-impl Check<'_, '_> {
+impl ActuatorCheck<'_, '_> {
     /// Reports an error at one of these attributes, or at the element if its class has the attribute.
-    fn error(&mut self, attribute: &str, message: &str) -> Reported<'_> {
+    fn error(&mut self, attribute: &str, message: &str) -> ReportedFinding<'_> {
         let span = self.node.attribute(attribute).map_or(self.node.span.clone(), |a| a.span.clone());
         let message = format!("{} {message}", self.node.describe());
         self.cx.report.error(rules::ACTUATOR, span, message)
     }
 
-    fn limit(&mut self, limit: &mut RangeSpec, of: &limits::Limit) {
-        let span = self.node.attribute(of.range).map_or(self.node.span.clone(), |a| a.span.clone());
+    fn limit(&mut self, limit: &mut RangeSpec, kind: &limits::Limit) {
+        let span = self.node.attribute(kind.range).map_or(self.node.span.clone(), |a| a.span.clone());
         let owner = self.node.describe();
         let given = limit.range != [0.0; 2];
-        let limited = limits::decide(self.cx, limit.flag, given, limit.range, span, &owner, of);
+        let limited = limits::decide(self.cx, limit.flag, given, limit.range, span, &owner, kind);
         limit.flag = i32::from(limited);
     }
 

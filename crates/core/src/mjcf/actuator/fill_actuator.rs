@@ -6,7 +6,7 @@ use crate::kinds::choice;
 use crate::mjcf::arrays::{flat, padded};
 use crate::mjcf::gather::listed;
 use crate::mjcf::rules;
-use crate::mjcf::spec::{ActuatorSpec, List, RangeSpec};
+use crate::mjcf::spec::{ActuatorSpec, NumberList, RangeSpec};
 use crate::mjcf::text::diagnostic::Diagnostics;
 use crate::model::Model;
 use crate::setup::lengthrange::{self, RangeError, RangeSearch};
@@ -17,7 +17,7 @@ const MAX_SEARCH: f64 = 2e7;
 
 /// The sizes of actuators that keyframes depend on.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Counts {
+pub(crate) struct ActuatorCounts {
     pub(crate) nu: usize,
     pub(crate) nout: usize,
     pub(crate) na: usize,
@@ -25,8 +25,8 @@ pub(crate) struct Counts {
 }
 
 /// Counts the sizes of all actuators.
-pub(crate) fn count(list: &[ActuatorSpec], report: &mut Diagnostics) -> Counts {
-    let mut n = Counts::default();
+pub(crate) fn count(list: &[ActuatorSpec], report: &mut Diagnostics) -> ActuatorCounts {
+    let mut n = ActuatorCounts::default();
     for a in list {
         let nu = controls(a).len();
         n.nu += nu;
@@ -95,13 +95,13 @@ pub(crate) fn actuators(m: &mut Model, list: &[ActuatorSpec]) {
     let each_output = || list.iter().flat_map(|a| std::iter::repeat_n(a, outputs(a)));
     flat(&mut m.actuator_gear, each_output(), |a| a.gear);
     flat(&mut m.actuator_lengthrange, each_output(), |a| a.lengthrange);
-    let users: Vec<List> = listed(list.iter().map(user));
+    let users: Vec<NumberList> = listed(list.iter().map(user));
     padded(&mut m.actuator_user, users.iter(), m.nuser_actuator);
 }
 
 /// The user values of an actuator.
-pub(crate) fn user(a: &ActuatorSpec) -> List {
-    List { numbers: a.user.clone(), span: a.user_span.clone() }
+pub(crate) fn user(a: &ActuatorSpec) -> NumberList {
+    NumberList { numbers: a.user.clone(), span: a.user_span.clone() }
 }
 
 /// Computes the number of entries of the moment matrix. `None`, with an error in the report, if it is too large.
@@ -118,9 +118,9 @@ pub(crate) fn length_ranges(
     search: &RangeSearch,
     report: &mut Diagnostics,
 ) {
-    let wanted: Vec<usize> = listed((0..m.nactuator).filter(|&i| search.needs_search(m, i)));
-    let pulled = wanted.iter().filter(|&&i| search.limits(m, i).is_none()).count();
-    let Some(first) = wanted.first().and_then(|&i| list.get(i)) else { return };
+    let searched: Vec<usize> = listed((0..m.nactuator).filter(|&i| search.needs_search(m, i)));
+    let pulled = searched.iter().filter(|&&i| search.limits(m, i).is_none()).count();
+    let Some(first) = searched.first().and_then(|&i| list.get(i)) else { return };
     // With active limits, the cost of a step grows with the cube of the number of degrees of freedom.
     let nv = m.nv.max(1) as f64;
     if pulled as f64 * search.steps(m) * nv * (1.0 + (nv / 64.0).powi(2)) > MAX_SEARCH {
@@ -129,7 +129,7 @@ pub(crate) fn length_ranges(
         return;
     }
     let Workspace { fields: mut d, scratch: mut s } = Workspace::unplanned(m);
-    for i in wanted {
+    for i in searched {
         let Some(spec) = list.get(i) else { continue };
         let wrong = match lengthrange::length_range(m, &mut d, &mut s, i, search) {
             Ok(()) => continue,

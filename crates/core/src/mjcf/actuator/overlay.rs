@@ -2,20 +2,20 @@
 
 use crate::mjcf::classes::Props;
 use crate::mjcf::rules;
-use crate::mjcf::text::diagnostic::{Diagnostics, Reported};
-use crate::mjcf::text::tree::Node;
+use crate::mjcf::text::diagnostic::{Diagnostics, ReportedFinding};
+use crate::mjcf::text::tree::ElementNode;
 
 /// An element that overrides the fields of an actuator.
-pub(crate) struct Overlay<'a> {
-    pub(crate) node: &'a Node,
+pub(crate) struct ActuatorOverlay<'a> {
+    pub(crate) node: &'a ElementNode,
     /// Its own attributes.
     pub(crate) p: Props,
     pub(crate) report: &'a mut Diagnostics,
 }
 
-impl Overlay<'_> {
+impl ActuatorOverlay<'_> {
     /// Reports an error at an attribute, or at the element if the attribute is absent.
-    pub(crate) fn error(&mut self, attribute: &str, message: impl Into<String>) -> Reported<'_> {
+    pub(crate) fn error(&mut self, attribute: &str, message: impl Into<String>) -> ReportedFinding<'_> {
         let span = self.p.span(attribute).unwrap_or(self.node.span.clone());
         self.report.error(rules::ACTUATOR, span, message)
     }

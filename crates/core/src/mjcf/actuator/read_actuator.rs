@@ -11,7 +11,7 @@ use crate::mjcf::ids::References;
 use crate::mjcf::rules;
 use crate::mjcf::spec::{ActuatorSpec, BodySpec, RangeSpec, TendonSpec, TransmissionSpec};
 use crate::mjcf::text::diagnostic::Diagnostics;
-use crate::mjcf::text::tree::{Node, name};
+use crate::mjcf::text::tree::{ElementNode, name};
 
 /// All actuators in the order of the text.
 pub(crate) fn actuators(
@@ -87,7 +87,7 @@ fn unset() -> ActuatorSpec {
 }
 
 /// Overrides the fields of an actuator: first the attributes that all elements share, then those of its shortcut.
-fn overlay(a: &mut ActuatorSpec, node: &Node, report: &mut Diagnostics) {
+fn overlay(a: &mut ActuatorSpec, node: &ElementNode, report: &mut Diagnostics) {
     let Some(set) = shortcut::find(node.element.name) else { return };
     let p = Props::written_props(node);
     a.gaintype = p.keyword("gaintype").unwrap_or(a.gaintype);
@@ -121,7 +121,7 @@ fn overlay(a: &mut ActuatorSpec, node: &Node, report: &mut Diagnostics) {
         a.user = p.shared("user");
         a.user_span = p.span("user").unwrap_or(node.span.clone());
     }
-    set(a, &mut super::overlay::Overlay { node, p, report });
+    set(a, &mut super::overlay::ActuatorOverlay { node, p, report });
 }
 
 /// The attributes that name the target of an actuator, with the kind of object and the transmission.
@@ -138,7 +138,7 @@ const TARGETS: [(&str, &str, i32); 6] = [
 fn transmission(
     a: &ActuatorSpec,
     refs: References,
-    node: &Node,
+    node: &ElementNode,
     report: &mut Diagnostics,
 ) -> Option<TransmissionSpec> {
     let owner = node.describe();
@@ -189,19 +189,19 @@ fn transmission(
 
 /// Reports attributes that are valid only for another transmission.
 fn check_transmission_attribute(
-    node: &Node,
+    node: &ElementNode,
     attribute: &str,
     object: &str,
     kind: i32,
     report: &mut Diagnostics,
 ) {
     let owner = node.describe();
-    for (name, of, needs) in [
+    for (name, transmission, needs) in [
         ("slidersite", trntype::SLIDERCRANK, "cranksite"),
         ("cranklength", trntype::SLIDERCRANK, "cranksite"),
         ("refsite", trntype::SITE, "site"),
     ] {
-        if let Some(a) = node.attribute(name).filter(|_| kind != of) {
+        if let Some(a) = node.attribute(name).filter(|_| kind != transmission) {
             report
                 .error(
                     rules::ACTUATOR,
@@ -221,7 +221,7 @@ fn check_orientation(
     id: i32,
     second: i32,
     refs: References,
-    node: &Node,
+    node: &ElementNode,
     report: &mut Diagnostics,
 ) {
     let owner = node.describe();

@@ -3,7 +3,7 @@
 //! They are documented in MuJoCo's XML reference, "actuator". An element starts with the values of its class, so that a parameter
 //! without an attribute keeps the value that a servo, a muscle or a motor of the class has set.
 
-use super::overlay::Overlay;
+use super::overlay::ActuatorOverlay;
 use super::shortcut_motor;
 use crate::kinds::{biastype, choice, dyntype, gaintype};
 use crate::mjcf::spec::ActuatorSpec;
@@ -11,11 +11,11 @@ use crate::mjcf::text::diagnostic::shorten_name;
 use std::f64::consts::PI;
 
 /// A function that writes the attributes of an element to an actuator.
-type Set = fn(&mut ActuatorSpec, &mut Overlay);
+type Set = fn(&mut ActuatorSpec, &mut ActuatorOverlay);
 
 /// All elements, by name.
 const SHORTCUTS: [(&str, Set); 12] = [
-    ("general", |a, e| input(&mut a.ctrlspec, Inputs::Any, e)),
+    ("general", |a, e| input(&mut a.ctrlspec, ValidInputs::Any, e)),
     ("motor", |a, _| {
         (a.gaintype, a.biastype, a.dyntype) = (gaintype::FIXED, biastype::NONE, dyntype::NONE);
         a.gainprm[0] = 1.0;
@@ -65,13 +65,13 @@ const SHORTCUTS: [(&str, Set); 12] = [
         clamp_controls(a, e, "adhesion pulls surfaces together and never pushes them apart");
     }),
     ("orientation", |a, e| {
-        input(&mut a.ctrlspec, Inputs::Chart, e);
+        input(&mut a.ctrlspec, ValidInputs::Chart, e);
         servo(a, e);
         (a.gaintype, a.biastype, a.dyntype) = (gaintype::SO3, biastype::SO3, dyntype::NONE);
     }),
     ("pid", pid),
     ("dcmotor", |a, e| {
-        input(&mut a.ctrlspec, Inputs::Servo, e);
+        input(&mut a.ctrlspec, ValidInputs::Servo, e);
         shortcut_motor::dcmotor(a, e);
     }),
 ];
@@ -82,7 +82,7 @@ pub(crate) fn find(name: &str) -> Option<Set> {
 }
 
 /// Gain, bias and damping of servos: kp (u - length) - kv velocity.
-fn servo(a: &mut ActuatorSpec, e: &mut Overlay) {
+fn servo(a: &mut ActuatorSpec, e: &mut ActuatorOverlay) {
     (a.gaintype, a.biastype) = (gaintype::FIXED, biastype::AFFINE);
     let kp = e.p.real("kp").unwrap_or(a.gainprm[0]);
     a.gainprm[0] = kp;
@@ -93,7 +93,7 @@ fn servo(a: &mut ActuatorSpec, e: &mut Overlay) {
 
 /// Reads `kv` or `dampratio`. A damping ratio is stored as a positive number in the place of -kv, until `mj_setConst` computes kv
 /// from the inertia.
-fn damping(a: &mut ActuatorSpec, e: &mut Overlay) {
+fn damping(a: &mut ActuatorSpec, e: &mut ActuatorOverlay) {
     let (kv, ratio) = (e.zero_or_more("kv"), e.zero_or_more("dampratio"));
     if kv.is_some() && ratio.is_some() {
         let owner = e.node.describe();
@@ -115,7 +115,7 @@ fn damping(a: &mut ActuatorSpec, e: &mut Overlay) {
 }
 
 /// Reports a range that is both given and inherited from the target.
-fn inherit(inheritrange: f64, range: [f64; 2], attribute: &str, e: &mut Overlay) {
+fn inherit(inheritrange: f64, range: [f64; 2], attribute: &str, e: &mut ActuatorOverlay) {
     if inheritrange > 0.0 && range != [0.0; 2] {
         let owner = e.node.describe();
         e.error("inheritrange", format!("{owner} has both `{attribute}` and `inheritrange`"))
@@ -125,7 +125,7 @@ fn inherit(inheritrange: f64, range: [f64; 2], attribute: &str, e: &mut Overlay)
 }
 
 /// Sets controls that are always clamped to their range, and reports a range with negative numbers.
-fn clamp_controls(a: &mut ActuatorSpec, e: &mut Overlay, why: &str) {
+fn clamp_controls(a: &mut ActuatorSpec, e: &mut ActuatorOverlay, why: &str) {
     a.ctrl.flag = choice::TRUE;
     if a.ctrl.range.iter().any(|&x| x < 0.0) {
         let owner = e.node.describe();
@@ -140,8 +140,8 @@ fn clamp_controls(a: &mut ActuatorSpec, e: &mut Overlay, why: &str) {
 }
 
 /// kp (position - length) + ki ∫ + kv (velocity - actual velocity) + feedforward.
-fn pid(a: &mut ActuatorSpec, e: &mut Overlay) {
-    input(&mut a.ctrlspec, Inputs::Servo, e);
+fn pid(a: &mut ActuatorSpec, e: &mut ActuatorOverlay) {
+    input(&mut a.ctrlspec, ValidInputs::Servo, e);
     let stateful = a.dyntype == dyntype::PID;
     let if_stateful = |x: f64| if stateful { x } else { 0.0 };
     let [ki, imax, slewmax] = [if_stateful(a.gainprm[0]), if_stateful(a.dynprm[0]), if_stateful(a.dynprm[1])];
@@ -175,14 +175,15 @@ const MUSCLE: [(&str, f64); 7] = [
 ];
 
 /// Reads the parameters of muscles. They are positive: a negative number counts as not given.
-fn muscle(a: &mut ActuatorSpec, e: &mut Overlay) {
+fn muscle(a: &mut ActuatorSpec, e: &mut ActuatorOverlay) {
     // The values of an actuator without muscle parameters count as not given.
     let or = |x: f64, nothing: f64, default: f64| if x == nothing { default } else { x };
     a.dynprm[0] = or(a.dynprm[0], 1.0, 0.01);
     a.dynprm[1] = or(a.dynprm[1], 0.0, 0.04);
     a.gainprm[0] = or(a.gainprm[0], 1.0, 0.75);
     a.gainprm[1] = or(a.gainprm[1], 0.0, 1.05);
-    let given = |e: &Overlay, name: &str, i: usize| e.p.list(name)?.get(i).copied().filter(|&x| x >= 0.0);
+    let given =
+        |e: &ActuatorOverlay, name: &str, i: usize| e.p.list(name)?.get(i).copied().filter(|&x| x >= 0.0);
     for i in 0..2 {
         a.dynprm[i] = given(e, "timeconst", i).unwrap_or(a.dynprm[i]);
         a.gainprm[i] = given(e, "range", i).unwrap_or(a.gainprm[i]);
@@ -197,7 +198,7 @@ fn muscle(a: &mut ActuatorSpec, e: &mut Overlay) {
 
 /// The valid values of an `input` attribute.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Inputs {
+enum ValidInputs {
     /// A parametrization of an orientation.
     Chart,
     /// A list of inputs of a controller.
@@ -220,7 +221,7 @@ const LIST: [(&str, i32); 4] =
     [("pos", inputs::POS), ("vel", inputs::VEL), ("ff", inputs::FF), ("voltage", inputs::VOLTAGE)];
 
 /// Reads the `input` attribute: an orientation parametrization, `none`, or a list in the order of [`LIST`].
-fn input(spec: &mut i32, allowed: Inputs, e: &mut Overlay) {
+fn input(spec: &mut i32, allowed: ValidInputs, e: &mut ActuatorOverlay) {
     let Some(text) = e.p.text("input").map(str::to_string) else { return };
     let chart = CHARTS.iter().find(|(name, _)| *name == text).map(|(_, n)| *n);
     let list = || {
@@ -234,16 +235,16 @@ fn input(spec: &mut i32, allowed: Inputs, e: &mut Overlay) {
         })
     };
     let read = match allowed {
-        Inputs::Chart => chart,
-        Inputs::Servo => list(),
-        Inputs::Any => chart.or_else(list),
+        ValidInputs::Chart => chart,
+        ValidInputs::Servo => list(),
+        ValidInputs::Any => chart.or_else(list),
     };
     match read {
         Some(n) => *spec = n,
         None => {
             let owner = e.node.describe();
             let help = match allowed {
-                Inputs::Chart => "write `expmap` (a rotation vector) or `quat`",
+                ValidInputs::Chart => "write `expmap` (a rotation vector) or `quat`",
                 _ => "write some of `pos vel ff voltage`, in this order, or `none`",
             };
             e.error("input", format!("`input` of {owner} is {}", shorten_name(&text))).help(help);

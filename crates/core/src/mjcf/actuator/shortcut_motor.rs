@@ -4,13 +4,13 @@
 //! speed), the resistance R and the inductance L, the electrical time constant is L/R. A nominal voltage V with stall
 //! torque τ and no-load speed ω gives K = V/ω and R = K V/τ.
 
-use super::overlay::Overlay;
+use super::overlay::ActuatorOverlay;
 use crate::forces::actuation::slots;
 use crate::kinds::{biastype, choice, dyntype, gaintype};
 use crate::mjcf::spec::ActuatorSpec;
 
 /// Writes the parameters of a motor into an actuator.
-pub(crate) fn dcmotor(a: &mut ActuatorSpec, e: &mut Overlay) {
+pub(crate) fn dcmotor(a: &mut ActuatorSpec, e: &mut ActuatorOverlay) {
     // The values of an actuator without motor parameters count as not given.
     if a.gaintype != gaintype::DCMOTOR {
         (a.gainprm, a.biasprm, a.dynprm) = ([0.0; 10], [0.0; 10], [0.0; 10]);
@@ -64,7 +64,7 @@ pub(crate) fn dcmotor(a: &mut ActuatorSpec, e: &mut Overlay) {
 }
 
 /// Sets the largest force, directly or from the largest current, and the largest rate of change of the current.
-fn saturation(a: &mut ActuatorSpec, e: &mut Overlay, k: f64) {
+fn saturation(a: &mut ActuatorSpec, e: &mut ActuatorOverlay, k: f64) {
     let [force, current, slope] = e.p.reals("saturation", [0.0, 0.0, a.dynprm[1]]);
     if force < 0.0 && current > 0.0 {
         let owner = e.node.describe();
@@ -82,7 +82,7 @@ fn saturation(a: &mut ActuatorSpec, e: &mut Overlay, k: f64) {
 
 /// Reads thermal resistance and capacity, or one of them with their product, a time constant. Also reads how the resistance of
 /// the wire grows with temperature.
-fn thermal(a: &mut ActuatorSpec, e: &mut Overlay) {
+fn thermal(a: &mut ActuatorSpec, e: &mut ActuatorOverlay) {
     let [resistance, capacity, time, growth, reference, ambient] =
         e.p.reals("thermal", [a.dynprm[2], a.dynprm[3], 0.0, a.gainprm[2], a.gainprm[3], a.dynprm[4]]);
     let divided = |x: f64, by: f64| if x == 0.0 && time > 0.0 && by > 0.0 { time / by } else { x };
@@ -109,7 +109,7 @@ fn mean(a: f64, b: f64) -> f64 {
     }
 }
 
-fn positive(e: &mut Overlay, x: f64, attribute: &str, what: &str, why: &str) {
+fn positive(e: &mut ActuatorOverlay, x: f64, attribute: &str, what: &str, why: &str) {
     if x <= 0.0 || !x.is_finite() {
         let owner = e.node.describe();
         e.error(attribute, format!("the {what} of {owner} is not larger than zero")).why(why).help(

@@ -1,6 +1,6 @@
 //! Writes meshes, height fields and skins to the arrays of the model.
 
-use super::mesh::{Hull, Mesh};
+use super::mesh::{CompiledMesh, ConvexHull};
 use super::read_asset::Assets;
 use super::skin::{Bone, Skin};
 use crate::geometry::{self, HullFaces};
@@ -42,13 +42,13 @@ pub(crate) fn count(m: &mut Model, assets: &Assets) {
     m.nskinbonevert = skins().flat_map(|s| &s.bones).map(|b| b.vertid.len()).sum();
 }
 
-fn graph_len(mesh: &Mesh) -> usize {
+fn graph_len(mesh: &CompiledMesh) -> usize {
     mesh.hull.as_ref().map_or(0, |h| 2 + 3 * h.vertex.len() + 6 * h.face.len())
 }
 
 pub(crate) fn meshes(m: &mut Model, assets: &Assets) {
-    let list: Vec<&Mesh> = listed(assets.meshes.iter().filter_map(|a| a.value.as_ref()));
-    let counts = |of: fn(&Mesh) -> usize| -> Vec<usize> { listed(list.iter().map(|x| of(x))) };
+    let list: Vec<&CompiledMesh> = listed(assets.meshes.iter().filter_map(|a| a.value.as_ref()));
+    let counts = |count: fn(&CompiledMesh) -> usize| -> Vec<usize> { listed(list.iter().map(|x| count(x))) };
     let numbers =
         |counts: &[usize]| (addresses(counts.iter().copied()), listed(counts.iter().map(|&n| n as i32)));
     (m.mesh_vertadr, m.mesh_vertnum) = numbers(&counts(|x| x.shape.vert.len()));
@@ -77,7 +77,7 @@ pub(crate) fn meshes(m: &mut Model, assets: &Assets) {
     m.mesh_graph = listed(list.iter().filter_map(|x| x.hull.as_ref()).flat_map(|h| h.graph()));
     m.mesh_sides = listed(list.iter().map(|x| {
         // The faces are computed from the vertices before these are rounded to single precision.
-        let graph = x.hull.as_ref().map_or(Vec::new(), Hull::graph);
+        let graph = x.hull.as_ref().map_or(Vec::new(), ConvexHull::graph);
         geometry::Hull::from_graph(&graph)
             .map_or_else(HullFaces::default, |hull| HullFaces::from_hull(&x.shape.vert, &hull))
     }));

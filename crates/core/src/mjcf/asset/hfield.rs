@@ -1,6 +1,6 @@
 //! Height fields: elevations on a grid, from text or a file, normalized to the range from 0 to 1.
 
-use super::mesh::{Bytes, Problem};
+use super::mesh::{AssetProblem, Bytes};
 #[cfg(feature = "pictures")]
 use super::png;
 use crate::mjcf::gather::listed;
@@ -21,7 +21,7 @@ pub(crate) struct HField {
 }
 
 /// The numbers of rows and columns, and elevations before normalization.
-pub(crate) struct Samples {
+pub(crate) struct ElevationSamples {
     nrow: usize,
     ncol: usize,
     data: Vec<f64>,
@@ -29,9 +29,9 @@ pub(crate) struct Samples {
 
 impl HField {
     /// A height field whose lowest sample is 0 and whose highest is 1.
-    pub(crate) fn new(samples: Samples, size: &[f64]) -> Result<HField, Problem> {
+    pub(crate) fn new(samples: ElevationSamples, size: &[f64]) -> Result<HField, AssetProblem> {
         let Ok(size) = <[f64; 4]>::try_from(size) else {
-            return Err(Problem::new(
+            return Err(AssetProblem::new(
                 "size",
                 "has no `size`",
                 "",
@@ -39,16 +39,16 @@ impl HField {
             ));
         };
         if let Some(x) = size.iter().find(|&&x| x <= 0.0) {
-            return Err(Problem::new(
+            return Err(AssetProblem::new(
                 "size",
                 format!("has {x} in its `size`"),
                 "a height field needs an extent, a height and a base",
                 "write four numbers larger than zero",
             ));
         }
-        let Samples { nrow, ncol, mut data } = samples;
+        let ElevationSamples { nrow, ncol, mut data } = samples;
         if let Some(i) = data.iter().position(|x| !x.is_finite()) {
-            return Err(Problem::new(
+            return Err(AssetProblem::new(
                 "file",
                 format!("has a sample {i} that is not finite"),
                 "",
@@ -85,10 +85,10 @@ impl HField {
 }
 
 /// Checks the numbers of rows and columns.
-fn grid(nrow: i32, ncol: i32, attribute: &'static str) -> Result<(usize, usize), Problem> {
+fn grid(nrow: i32, ncol: i32, attribute: &'static str) -> Result<(usize, usize), AssetProblem> {
     match (usize::try_from(nrow), usize::try_from(ncol)) {
         (Ok(r), Ok(c)) if r > 0 && c > 0 && r.saturating_mul(c) <= MAX_SAMPLES => Ok((r, c)),
-        _ => Err(Problem::new(
+        _ => Err(AssetProblem::new(
             attribute,
             format!("has {nrow} rows and {ncol} columns"),
             "",
@@ -98,13 +98,13 @@ fn grid(nrow: i32, ncol: i32, attribute: &'static str) -> Result<(usize, usize),
 }
 
 /// A height field whose elevations are in its attribute, starting at the largest y. Without elevations, it is flat.
-pub(crate) fn written(nrow: i32, ncol: i32, elevation: &[f64]) -> Result<Samples, Problem> {
+pub(crate) fn written(nrow: i32, ncol: i32, elevation: &[f64]) -> Result<ElevationSamples, AssetProblem> {
     let (nrow, ncol) = grid(nrow, ncol, "nrow")?;
     if elevation.is_empty() {
-        return Ok(Samples { nrow, ncol, data: vec![0.0; nrow * ncol] });
+        return Ok(ElevationSamples { nrow, ncol, data: vec![0.0; nrow * ncol] });
     }
     if elevation.len() != nrow * ncol {
-        return Err(Problem::new(
+        return Err(AssetProblem::new(
             "elevation",
             format!("has {} elevations, but {nrow} rows of {ncol} columns", elevation.len()),
             "",
@@ -113,7 +113,7 @@ pub(crate) fn written(nrow: i32, ncol: i32, elevation: &[f64]) -> Result<Samples
     }
     let rows = elevation.chunks_exact(ncol).rev();
     let data = listed(rows.flatten().map(|&x| f64::from(x as f32)));
-    Ok(Samples { nrow, ncol, data })
+    Ok(ElevationSamples { nrow, ncol, data })
 }
 
 /// The content types of the file formats.
@@ -123,7 +123,7 @@ const MUJOCO_HFIELD: &str = "image/vnd.mujoco.hfield";
 /// Reads a file: a PNG image or MuJoCo's format. The extension of the name or `content_type` determines the format, by the rules
 /// measured on MuJoCo 3.14.0: a content type with a `/` that is not one of the two is refused, and any other text selects
 /// MuJoCo's format.
-pub(crate) fn decode(path: &str, content_type: &str, bytes: &[u8]) -> Result<Samples, Problem> {
+pub(crate) fn decode(path: &str, content_type: &str, bytes: &[u8]) -> Result<ElevationSamples, AssetProblem> {
     let kind = match content_type {
         "" if path.to_ascii_lowercase().ends_with(".png") => PNG,
         "" => MUJOCO_HFIELD,
@@ -133,7 +133,7 @@ pub(crate) fn decode(path: &str, content_type: &str, bytes: &[u8]) -> Result<Sam
     match kind {
         PNG => read_image(bytes),
         MUJOCO_HFIELD => decode_samples(bytes),
-        _ => Err(Problem::new(
+        _ => Err(AssetProblem::new(
             "content_type",
             format!("has a file of the kind {}", shorten_name(kind)),
             "heights come from an image or from MuJoCo's own format",
@@ -144,9 +144,9 @@ pub(crate) fn decode(path: &str, content_type: &str, bytes: &[u8]) -> Result<Sam
 
 /// A PNG image: the elevation is the red channel in 8 bits, and the last row of the image has the smallest y.
 #[cfg(feature = "pictures")]
-fn read_image(bytes: &[u8]) -> Result<Samples, Problem> {
+fn read_image(bytes: &[u8]) -> Result<ElevationSamples, AssetProblem> {
     let bad = |what: &str| {
-        Problem::file(
+        AssetProblem::file(
             format!("has a file that cannot be read as a PNG image: {what}"),
             "export the image again",
         )
@@ -157,36 +157,36 @@ fn read_image(bytes: &[u8]) -> Result<Samples, Problem> {
     let (nrow, ncol) = grid(to_int(header.height), to_int(header.width), "file")?;
     let red = png::first_colors(&header, rest).map_err(bad)?;
     let data = listed(red.chunks_exact(ncol).rev().flatten().map(|&x| f64::from(x)));
-    Ok(Samples { nrow, ncol, data })
+    Ok(ElevationSamples { nrow, ncol, data })
 }
 
 /// Returns an error, in builds without support for images.
 #[cfg(not(feature = "pictures"))]
-fn read_image(_: &[u8]) -> Result<Samples, Problem> {
-    Err(Problem::file(
+fn read_image(_: &[u8]) -> Result<ElevationSamples, AssetProblem> {
+    Err(AssetProblem::file(
         "has an image, but this program was built without image support".to_string(),
         "write the heights into the model, as `elevation`, or ship the compiled model",
     ))
 }
 
 /// MuJoCo's format: the numbers of rows and columns, then the elevations in single precision, starting at the smallest y.
-fn decode_samples(bytes: &[u8]) -> Result<Samples, Problem> {
+fn decode_samples(bytes: &[u8]) -> Result<ElevationSamples, AssetProblem> {
     if bytes.starts_with(b"\x89PNG") {
-        return Err(Problem::file(
+        return Err(AssetProblem::file(
             "has a PNG image as its file, but neither its name nor its type says so",
             "use a file name that ends in .png, or write `content_type=\"image/png\"`",
         ));
     }
     let mut numbers = Bytes(bytes);
     let Some([nrow, ncol]) = numbers.ints() else {
-        return Err(Problem::file(
+        return Err(AssetProblem::file(
             format!("has a file of {} bytes", bytes.len()),
             "the file begins with two 32-bit integers: rows and columns",
         ));
     };
     let (nrow, ncol) = grid(nrow, ncol, "file")?;
     if numbers.0.len() != 4 * nrow * ncol {
-        return Err(Problem::file(
+        return Err(AssetProblem::file(
             format!(
                 "has a file of {} bytes, but {nrow} rows of {ncol} columns need {}",
                 bytes.len(),
@@ -195,5 +195,5 @@ fn decode_samples(bytes: &[u8]) -> Result<Samples, Problem> {
             "write the file again: it is truncated or has another format",
         ));
     }
-    Ok(Samples { nrow, ncol, data: listed((0..nrow * ncol).map_while(|_| numbers.real())) })
+    Ok(ElevationSamples { nrow, ncol, data: listed((0..nrow * ncol).map_while(|_| numbers.real())) })
 }

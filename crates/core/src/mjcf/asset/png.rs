@@ -124,7 +124,7 @@ pub(super) fn header(bytes: &mut &[u8]) -> Result<Header, &'static str> {
 
 /// The first colour channel of each pixel, row by row from the top. `bytes` starts after the header. The caller has checked that
 /// the size in the header is within the limits.
-pub(super) fn first_colors(of: &Header, mut bytes: &[u8]) -> Result<Vec<u8>, &'static str> {
+pub(super) fn first_colors(header: &Header, mut bytes: &[u8]) -> Result<Vec<u8>, &'static str> {
     let (mut palette, mut packed): (&[u8], Vec<u8>) = (&[], Vec::new());
     // The compressed data are in consecutive chunks. Later chunks are not needed.
     while packed.is_empty() || bytes.get(4..8) == Some(b"IDAT") {
@@ -135,28 +135,28 @@ pub(super) fn first_colors(of: &Header, mut bytes: &[u8]) -> Result<Vec<u8>, &'s
             _ => {}
         }
     }
-    if of.color == INDEXED && palette.is_empty() {
+    if header.color == INDEXED && palette.is_empty() {
         return Err("it has no palette");
     }
     let size = |&pass: &Pass| {
-        let [nx, ny] = of.size(pass);
-        ny * (1 + of.row(nx))
+        let [nx, ny] = header.size(pass);
+        ny * (1 + header.row(nx))
     };
-    let mut rows = unpack(&packed, of.passes().iter().map(size).sum())?;
-    let (width, mut rest) = (of.width as usize, rows.as_mut_slice());
-    let mut colors = vec![0; width * of.height as usize];
-    for &pass in of.passes() {
-        let [nx, ny] = of.size(pass);
-        let mut above = vec![0; of.row(nx)];
+    let mut rows = unpack(&packed, header.passes().iter().map(size).sum())?;
+    let (width, mut rest) = (header.width as usize, rows.as_mut_slice());
+    let mut colors = vec![0; width * header.height as usize];
+    for &pass in header.passes() {
+        let [nx, ny] = header.size(pass);
+        let mut above = vec![0; header.row(nx)];
         let ([x0, y0], [dx, dy]) = pass;
         for i in 0..ny {
             let Some(([filter], after)) = std::mem::take(&mut rest).split_first_chunk_mut() else { break };
             let Some((row, after)) = after.split_at_mut_checked(above.len()) else { break };
-            unfilter(*filter, row, &above, of.bits().div_ceil(8))?;
+            unfilter(*filter, row, &above, header.bits().div_ceil(8))?;
             let line =
                 colors.get_mut((y0 as usize + i * dy as usize) * width + x0 as usize..).unwrap_or_default();
             for (x, color) in line.iter_mut().step_by(dx as usize).take(nx).enumerate() {
-                *color = of.first(row, x, palette);
+                *color = header.first(row, x, palette);
             }
             above.copy_from_slice(row);
             rest = after;

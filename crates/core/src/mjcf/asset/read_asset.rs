@@ -5,11 +5,11 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 use super::hfield::HField;
-use super::mesh::{self, Body, Mesh, Problem, Raw};
+use super::mesh::{self, AssetProblem, CompiledMesh, MeshBody, Raw};
 use super::skin::{self, Bone, Skin};
 use crate::kinds::geom;
 use crate::math::{IDENTITY, norm};
-use crate::mjcf::asset::mesh::build::{self, Options};
+use crate::mjcf::asset::mesh::build::{self, MeshOptions};
 use crate::mjcf::classes::{Classes, Props};
 use crate::mjcf::expand::AttachedModel;
 use crate::mjcf::names::{NameTable, WORLD};
@@ -18,7 +18,7 @@ use crate::mjcf::spec::{BodySpec, PairSpec};
 use crate::mjcf::text::diagnostic::{Diagnostics, shorten_name};
 use crate::mjcf::text::files::{Files, MAX_FILE};
 use crate::mjcf::text::load;
-use crate::mjcf::text::tree::{Node, Tree, name};
+use crate::mjcf::text::tree::{ElementNode, ElementTree, name};
 
 /// Limit in bytes for all files, vertices and triangles of meshes, and samples of height fields together. Without it, a small
 /// text could request any amount.
@@ -39,7 +39,7 @@ pub(crate) struct Asset<T> {
 /// All meshes, height fields and skins.
 #[derive(Debug, Default)]
 pub(crate) struct Assets {
-    pub(crate) meshes: Vec<Asset<Mesh>>,
+    pub(crate) meshes: Vec<Asset<CompiledMesh>>,
     pub(crate) hfields: Vec<Asset<HField>>,
     pub(crate) skins: Vec<Asset<Skin>>,
     /// The default materials of meshes, by mesh.
@@ -49,7 +49,7 @@ pub(crate) struct Assets {
 }
 
 /// The inputs for reading assets.
-struct Reader<'a> {
+struct AssetReader<'a> {
     parts: &'a [AttachedModel],
     files: &'a dyn Files,
     /// The remaining part of [`MOST`].
@@ -60,14 +60,14 @@ struct Reader<'a> {
 impl Assets {
     /// Reads all sections.
     pub(crate) fn read(
-        tree: &Tree,
+        tree: &ElementTree,
         classes: &Classes,
         parts: &[AttachedModel],
         files: &dyn Files,
         report: &mut Diagnostics,
     ) -> Assets {
         let mut assets = Assets::default();
-        let mut reader = Reader { parts, files, left: MOST, report };
+        let mut reader = AssetReader { parts, files, left: MOST, report };
         for (_, node) in tree.sections("asset").flat_map(|(at, _)| tree.children(at)) {
             if reader.report.is_full() {
                 break;
@@ -114,7 +114,7 @@ impl Assets {
     }
 
     /// A mesh and its id, if it could be built.
-    pub(crate) fn mesh(&self, name: &str) -> Option<(i32, &Mesh)> {
+    pub(crate) fn mesh(&self, name: &str) -> Option<(i32, &CompiledMesh)> {
         let id = self.id("mesh", name)?;
         Some((id as i32, self.meshes.get(id)?.value.as_ref()?))
     }
@@ -179,7 +179,7 @@ impl Assets {
 
 /// Reports a problem with an asset.
 fn report_problem(
-    problem: Problem,
+    problem: AssetProblem,
     code: &'static Rule,
     owner: &str,
     span: Range<usize>,
@@ -192,12 +192,12 @@ fn report_problem(
     d.help(problem.help);
 }
 
-impl Reader<'_> {
-    fn mesh(&mut self, node: &Node, p: &Props) -> Option<Mesh> {
+impl AssetReader<'_> {
+    fn mesh(&mut self, node: &ElementNode, p: &Props) -> Option<CompiledMesh> {
         let options = self.options(node, p)?;
         let made = self.raw(node, p)?.and_then(|(raw, surface)| {
-            let body = if surface && !p.has("inertia") { Body::Shell } else { options.body };
-            build::mesh(raw, Options { body, ..options })
+            let body = if surface && !p.has("inertia") { MeshBody::Shell } else { options.body };
+            build::mesh(raw, MeshOptions { body, ..options })
         });
         match made {
             Ok(mesh) => Some(mesh),
@@ -205,41 +205,47 @@ impl Reader<'_> {
         }
     }
 
-    fn wrong<T>(&mut self, problem: Problem, code: &'static Rule, node: &Node, p: &Props) -> Option<T> {
+    fn wrong<T>(
+        &mut self,
+        problem: AssetProblem,
+        code: &'static Rule,
+        node: &ElementNode,
+        p: &Props,
+    ) -> Option<T> {
         let span = p.span(problem.attribute).unwrap_or(node.span.clone());
         report_problem(problem, code, &node.describe(), span, self.report);
         None
     }
 
-    fn options(&mut self, node: &Node, p: &Props) -> Option<Options> {
+    fn options(&mut self, node: &ElementNode, p: &Props) -> Option<MeshOptions> {
         let refquat = p.reals("refquat", IDENTITY);
         let maxhullvert = p.int("maxhullvert").unwrap_or(-1);
         let problem = if quaternion_norm(refquat) < crate::math::MINVAL {
-            Problem::new(
+            AssetProblem::new(
                 "refquat",
                 "has a `refquat` of zero",
                 "it does not describe a rotation",
                 "write `1 0 0 0` for no rotation",
             )
         } else if maxhullvert != -1 && maxhullvert < FEWEST_CORNERS {
-            Problem::new(
+            AssetProblem::new(
                 "maxhullvert",
                 format!("has a hull of at most {maxhullvert} corners"),
                 "the smallest solid has four corners",
                 "write 4 or more, or -1 for no limit",
             )
         } else {
-            return Some(Options {
+            return Some(MeshOptions {
                 scale: p.reals("scale", [1.0; 3]),
                 refpos: p.reals("refpos", [0.0; 3]),
                 refquat,
                 smooth: p.flag("smoothnormal", false),
                 maxhullvert: usize::try_from(maxhullvert).ok(),
                 body: match p.keyword("inertia") {
-                    Some(0) => Body::Convex,
-                    Some(1) => Body::Exact,
-                    Some(3) => Body::Shell,
-                    _ => Body::Legacy,
+                    Some(0) => MeshBody::Convex,
+                    Some(1) => MeshBody::Exact,
+                    Some(3) => MeshBody::Shell,
+                    _ => MeshBody::Legacy,
                 },
             });
         };
@@ -247,10 +253,10 @@ impl Reader<'_> {
     }
 
     /// The data of a mesh, and whether it is an open surface. `None` if its file cannot be read.
-    fn raw(&mut self, node: &Node, p: &Props) -> Option<Result<(Raw, bool), Problem>> {
+    fn raw(&mut self, node: &ElementNode, p: &Props) -> Option<Result<(Raw, bool), AssetProblem>> {
         let sources: Vec<&str> = listed(["builtin", "file", "vertex"].into_iter().filter(|a| p.has(a)));
         if let [_, second, ..] = sources[..] {
-            return Some(Err(Problem::new(
+            return Some(Err(AssetProblem::new(
                 second,
                 format!("has {}", listed(sources.iter().map(|s| format!("`{s}`"))).join(" and ")),
                 "each of them gives the shape of the mesh",
@@ -278,13 +284,13 @@ impl Reader<'_> {
     }
 
     /// Subtracts bytes from the remaining limit.
-    fn take(&mut self, bytes: usize) -> Result<(), Problem> {
+    fn take(&mut self, bytes: usize) -> Result<(), AssetProblem> {
         match self.left.checked_sub(bytes) {
             Some(left) => {
                 self.left = left;
                 Ok(())
             }
-            None => Err(Problem::new(
+            None => Err(AssetProblem::new(
                 "",
                 "exceeds the size limit",
                 "all meshes and height fields together are larger than a lesson can need",
@@ -294,7 +300,7 @@ impl Reader<'_> {
     }
 
     /// Reads the file of an asset and returns its path and its bytes.
-    fn file(&mut self, node: &Node, p: &Props) -> Option<(String, Vec<u8>)> {
+    fn file(&mut self, node: &ElementNode, p: &Props) -> Option<(String, Vec<u8>)> {
         let AttachedModel { compiler, folder } = self.parts.get(node.model)?;
         let mut written = p.text("file")?.to_string();
         if compiler.strippath
@@ -312,10 +318,10 @@ impl Reader<'_> {
         Some((path, bytes))
     }
 
-    fn hfield(&mut self, node: &Node) -> Option<HField> {
+    fn hfield(&mut self, node: &ElementNode) -> Option<HField> {
         let p = Props::written_props(node);
         let samples = if p.has("file") && p.text("file").is_none() {
-            Err(Problem::new("file", "names no file", "", "write the name of a file, or remove `file`"))
+            Err(AssetProblem::new("file", "names no file", "", "write the name of a file, or remove `file`"))
         } else if p.text("file").is_some() {
             let (path, bytes) = self.file(node, &p)?;
             super::hfield::decode(&path, p.text("content_type").unwrap_or(""), &bytes)
@@ -347,21 +353,21 @@ impl Reader<'_> {
 /// The largest group of a skin.
 const MAX_GROUP: i32 = 5;
 
-impl Reader<'_> {
-    fn skin(&mut self, tree: &Tree, at: usize, node: &Node) -> Option<Skin> {
+impl AssetReader<'_> {
+    fn skin(&mut self, tree: &ElementTree, at: usize, node: &ElementNode) -> Option<Skin> {
         let p = Props::written_props(node);
         let group = p.int("group").unwrap_or(0);
         if !(0..=MAX_GROUP).contains(&group) {
             let problem =
-                Problem::new("group", format!("is in group {group}"), "", "groups of skins are 0 to 5");
+                AssetProblem::new("group", format!("is in group {group}"), "", "groups of skins are 0 to 5");
             return self.wrong(problem, rules::VALUE, node, &p);
         }
-        let bone_nodes: Vec<&Node> = listed(tree.children(at).map(|(_, bone)| bone));
+        let bone_nodes: Vec<&ElementNode> = listed(tree.children(at).map(|(_, bone)| bone));
         let made = if p.text("file").is_some() {
             let (path, bytes) = self.file(node, &p)?;
             let written = ["vertex", "texcoord", "face"].into_iter().find(|a| p.has(a));
             if written.is_some() || !bone_nodes.is_empty() {
-                Err(Problem::new(
+                Err(AssetProblem::new(
                     written.unwrap_or("file"),
                     "has both a file and inline data",
                     "the file contains vertices, triangles and bones",
@@ -401,7 +407,7 @@ impl Reader<'_> {
     }
 
     /// Reads a bone. All its attributes are required.
-    fn bone(&mut self, node: &Node) -> Option<Bone> {
+    fn bone(&mut self, node: &ElementNode) -> Option<Bone> {
         let p = Props::written_props(node);
         let missing =
             ["body", "bindpos", "bindquat", "vertid", "vertweight"].into_iter().find(|a| match *a {
@@ -431,7 +437,7 @@ fn quaternion_norm(q: [f64; 4]) -> f64 {
 }
 
 /// A mesh whose data are in its attributes.
-fn written(p: &Props) -> Result<Raw, Problem> {
+fn written(p: &Props) -> Result<Raw, AssetProblem> {
     let raw = Raw {
         vert: chunks(p, "vertex")?,
         normal: chunks(p, "normal")?,
@@ -448,11 +454,11 @@ fn written(p: &Props) -> Result<Raw, Problem> {
 }
 
 /// Checks that there is a pair for each vertex, or none at all.
-fn texcoords(pairs: &[[f64; 2]], vertices: usize) -> Result<(), Problem> {
+fn texcoords(pairs: &[[f64; 2]], vertices: usize) -> Result<(), AssetProblem> {
     if pairs.is_empty() || pairs.len() == vertices {
         return Ok(());
     }
-    Err(Problem::new(
+    Err(AssetProblem::new(
         "texcoord",
         format!("has {} texture coordinates for {vertices} vertices", pairs.len()),
         "",
@@ -461,7 +467,7 @@ fn texcoords(pairs: &[[f64; 2]], vertices: usize) -> Result<(), Problem> {
 }
 
 /// Groups of `N` numbers, rounded to single precision as in files.
-fn chunks<const N: usize>(p: &Props, name: &'static str) -> Result<Vec<[f64; N]>, Problem> {
+fn chunks<const N: usize>(p: &Props, name: &'static str) -> Result<Vec<[f64; N]>, AssetProblem> {
     let list = p.list(name).unwrap_or(&[]);
     match list.as_chunks() {
         (chunks, []) => Ok(listed(chunks.iter().map(|c| c.map(|x| f64::from(x as f32))))),
@@ -469,8 +475,8 @@ fn chunks<const N: usize>(p: &Props, name: &'static str) -> Result<Vec<[f64; N]>
     }
 }
 
-fn not_whole(name: &'static str, count: usize, group: usize) -> Problem {
-    Problem::new(
+fn not_whole(name: &'static str, count: usize, group: usize) -> AssetProblem {
+    AssetProblem::new(
         name,
         format!("has {count} numbers in `{name}`"),
         "",

@@ -4,7 +4,7 @@ use crate::mjcf::classes::Props;
 use crate::mjcf::context::Context;
 use crate::mjcf::gather::listed;
 use crate::mjcf::text::files;
-use crate::mjcf::text::tree::{Node, name};
+use crate::mjcf::text::tree::{ElementNode, name};
 use crate::model::texture::Texture;
 
 /// The files of the faces of a cube, in the order of the faces.
@@ -19,7 +19,7 @@ pub(crate) fn textures(cx: &Context) -> Vec<(String, Texture)> {
     listed(textures.map(|(_, node)| (name(node), read(cx, node))))
 }
 
-fn read(cx: &Context, node: &Node) -> Texture {
+fn read(cx: &Context, node: &ElementNode) -> Texture {
     let p = Props::written_props(node);
     let default = Texture::default();
     let path = |attribute: &str| p.text(attribute).and_then(|written| resolve(cx, node, written));
@@ -48,7 +48,7 @@ fn read(cx: &Context, node: &Node) -> Texture {
 }
 
 /// The path of a file in the folder of the model. `None` if it is outside.
-fn resolve(cx: &Context, node: &Node, written: &str) -> Option<String> {
+fn resolve(cx: &Context, node: &ElementNode, written: &str) -> Option<String> {
     let part = cx.parts.get(node.model)?;
     let compiler = &part.compiler;
     let file = match written.rsplit_once(['/', '\\']) {

@@ -4,7 +4,7 @@
 use crate::mjcf::gather::listed;
 use std::ops::Range;
 
-use super::mesh::{Bytes, MAX_FACES, MAX_VERTICES, Problem};
+use super::mesh::{AssetProblem, Bytes, MAX_FACES, MAX_VERTICES};
 use crate::math::MINVAL;
 
 /// The data of a skin as given in the text or a file.
@@ -43,7 +43,7 @@ const NAME: usize = 40;
 
 impl Skin {
     /// Checks that the parts are consistent, and normalizes the weights of each vertex to the sum 1.
-    pub(crate) fn complete(mut self) -> Result<Skin, Problem> {
+    pub(crate) fn complete(mut self) -> Result<Skin, AssetProblem> {
         if self.vert.is_empty() || self.face.is_empty() || self.bones.is_empty() {
             let missing = [
                 ("vertices", self.vert.is_empty()),
@@ -51,7 +51,7 @@ impl Skin {
                 ("bones", self.bones.is_empty()),
             ];
             let missing = listed(missing.iter().filter(|m| m.1).map(|m| m.0)).join(" and no ");
-            return Err(Problem::new(
+            return Err(AssetProblem::new(
                 "",
                 format!("has no {missing}"),
                 "a skin is a surface that bodies carry",
@@ -60,7 +60,7 @@ impl Skin {
         }
         let n = self.vert.len();
         if !self.texcoord.is_empty() && self.texcoord.len() != n {
-            return Err(Problem::new(
+            return Err(AssetProblem::new(
                 "texcoord",
                 format!("has {} texture coordinates for {n} vertices", self.texcoord.len()),
                 "",
@@ -69,7 +69,7 @@ impl Skin {
         }
         let is_vertex = |&id: &i32| usize::try_from(id).is_ok_and(|id| id < n);
         if let Some(id) = self.face.as_flattened().iter().find(|id| !is_vertex(id)) {
-            return Err(Problem::new(
+            return Err(AssetProblem::new(
                 "face",
                 format!("has a triangle with vertex {id}, of {n} vertices"),
                 "a renderer would read past the end",
@@ -78,7 +78,7 @@ impl Skin {
         }
         let total = self.total_weights(n)?;
         if let Some(i) = total.iter().position(|&sum| sum.is_nan() || sum <= MINVAL) {
-            return Err(Problem::new(
+            return Err(AssetProblem::new(
                 "",
                 format!("has a vertex {i} that no bone carries"),
                 "the weights of a vertex give the share of each body, and their sum must be positive",
@@ -98,12 +98,12 @@ impl Skin {
     }
 
     /// The sum of the weights of each of `n` vertices.
-    fn total_weights(&self, n: usize) -> Result<Vec<f64>, Problem> {
+    fn total_weights(&self, n: usize) -> Result<Vec<f64>, AssetProblem> {
         let mut total = vec![0.0; n];
         for bone in &self.bones {
             let (ids, weights) = (bone.vertid.len(), bone.vertweight.len());
             if ids != weights || ids == 0 {
-                return Err(Problem::new(
+                return Err(AssetProblem::new(
                     "",
                     format!("has a bone of {ids} vertices with {weights} weights"),
                     "",
@@ -112,7 +112,7 @@ impl Skin {
             }
             for (id, weight) in bone.vertid.iter().zip(&bone.vertweight) {
                 let Some(sum) = usize::try_from(*id).ok().and_then(|id| total.get_mut(id)) else {
-                    return Err(Problem::new(
+                    return Err(AssetProblem::new(
                         "",
                         format!("has a bone with vertex {id}, of {n} vertices"),
                         "",
@@ -129,10 +129,10 @@ impl Skin {
 /// Reads MuJoCo's binary skin format (XML reference, SKN): the counts of vertices, texture coordinates, triangles and bones, then
 /// these, in single precision and 32-bit integers. A bone consists of the name of its body, its pose, and its vertices with their
 /// weights.
-pub(crate) fn decode(path: &str, bytes: &[u8], span: &Range<usize>) -> Result<Skin, Problem> {
+pub(crate) fn decode(path: &str, bytes: &[u8], span: &Range<usize>) -> Result<Skin, AssetProblem> {
     let ending = path.rsplit_once('.').map_or("", |(_, ending)| ending);
     if !ending.eq_ignore_ascii_case("skn") {
-        return Err(Problem::file(
+        return Err(AssetProblem::file(
             "has a file whose name does not end in .skn",
             "export the skin in MuJoCo's binary format",
         ));
@@ -144,7 +144,7 @@ pub(crate) fn decode(path: &str, bytes: &[u8], span: &Range<usize>) -> Result<Sk
         let [v, t, f, b] = sizes;
         let message =
             format!("has an SKN file of {v} vertices, {t} texture coordinates, {f} triangles and {b} bones");
-        return Err(Problem::file(message, "the file is damaged: export it again"));
+        return Err(AssetProblem::file(message, "the file is damaged: export it again"));
     }
     // Checks the length before allocation, so that the size of the file bounds the memory.
     if numbers.0.len() < 4 * (3 * nvert + 2 * ntexcoord + 3 * nface) {
@@ -161,12 +161,12 @@ pub(crate) fn decode(path: &str, bytes: &[u8], span: &Range<usize>) -> Result<Sk
     }
     if !numbers.0.is_empty() {
         let message = format!("has an SKN file with {} bytes more than its header says", numbers.0.len());
-        return Err(Problem::file(message, "the file is damaged: export it again"));
+        return Err(AssetProblem::file(message, "the file is damaged: export it again"));
     }
     let numbers = skin.vert.as_flattened().iter().chain(skin.texcoord.as_flattened());
     let of_bones = skin.bones.iter().flat_map(|b| b.bindpos.iter().chain(&b.bindquat).chain(&b.vertweight));
     if numbers.chain(of_bones).any(|x| !x.is_finite()) {
-        return Err(Problem::file(
+        return Err(AssetProblem::file(
             "has an SKN file with a number that is not finite",
             "write finite numbers",
         ));
@@ -174,15 +174,15 @@ pub(crate) fn decode(path: &str, bytes: &[u8], span: &Range<usize>) -> Result<Sk
     Ok(skin)
 }
 
-fn damaged() -> Problem {
-    Problem::file(
+fn damaged() -> AssetProblem {
+    AssetProblem::file(
         "has an SKN file that is shorter than its header says",
         "the file is damaged: export it again",
     )
 }
 
 /// Reads the next bone.
-fn read_bone(numbers: &mut Bytes, span: &Range<usize>) -> Result<Bone, Problem> {
+fn read_bone(numbers: &mut Bytes, span: &Range<usize>) -> Result<Bone, AssetProblem> {
     let (name, rest) = numbers.0.split_at_checked(NAME).ok_or_else(damaged)?;
     *numbers = Bytes(rest);
     let end = name.iter().position(|&c| c == 0).unwrap_or(NAME - 1);

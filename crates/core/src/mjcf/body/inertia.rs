@@ -7,7 +7,7 @@ use crate::math::{
 use crate::mjcf::expand::AttachedModel;
 use crate::mjcf::gather::listed;
 use crate::mjcf::rules;
-use crate::mjcf::settings::{Compiler, InertiaFromGeom};
+use crate::mjcf::settings::{CompilerSettings, InertiaFromGeom};
 use crate::mjcf::spec::{BodySpec, GeomSpec, Inertia};
 use crate::mjcf::text::diagnostic::Diagnostics;
 
@@ -27,7 +27,7 @@ pub(crate) fn bodies(list: &[BodySpec], parts: &[AttachedModel], report: &mut Di
     all
 }
 
-fn body_inertia(body: &BodySpec, compiler: &Compiler) -> Inertia {
+fn body_inertia(body: &BodySpec, compiler: &CompilerSettings) -> Inertia {
     let from_geoms = match compiler.inertiafromgeom {
         InertiaFromGeom::Never => None,
         InertiaFromGeom::Always => of_geoms(&body.geoms, compiler),
@@ -41,7 +41,7 @@ fn body_inertia(body: &BodySpec, compiler: &Compiler) -> Inertia {
 }
 
 /// The combined inertia of the geoms that have mass, or `None` if there are none.
-fn of_geoms(geoms: &[GeomSpec], compiler: &Compiler) -> Option<Inertia> {
+fn of_geoms(geoms: &[GeomSpec], compiler: &CompilerSettings) -> Option<Inertia> {
     let [lowest, highest] = compiler.inertiagrouprange;
     let massive: Vec<Inertia> =
         listed(
@@ -149,7 +149,12 @@ fn in_frame(m: [f64; 6], quat: Quat) -> [f64; 6] {
 }
 
 /// Checks that no moment exceeds the sum of the other two. No mass distribution has such an inertia.
-fn check_triangle(body: &BodySpec, inertia: &mut Inertia, compiler: &Compiler, report: &mut Diagnostics) {
+fn check_triangle(
+    body: &BodySpec,
+    inertia: &mut Inertia,
+    compiler: &CompilerSettings,
+    report: &mut Diagnostics,
+) {
     let [a, b, c] = inertia.moments;
     // Rounding errors in the computed moments of a flat body are not an error of the author.
     let slack = 1e-13 * (a + b + c);

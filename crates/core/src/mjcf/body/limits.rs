@@ -4,7 +4,7 @@ use crate::kinds::choice;
 use crate::mjcf::classes::Props;
 use crate::mjcf::context::Context;
 use crate::mjcf::rules::{self, Rule};
-use crate::mjcf::text::tree::Node;
+use crate::mjcf::text::tree::ElementNode;
 
 /// The names of the attributes of a range.
 pub(crate) struct Limit {
@@ -15,7 +15,7 @@ pub(crate) struct Limit {
 }
 
 /// Whether a range is active, and the range. The flag decides; if it is `auto`, a given range is active.
-pub(crate) fn read(cx: &mut Context, p: &Props, node: &Node, limit: &Limit) -> (bool, [f64; 2]) {
+pub(crate) fn read(cx: &mut Context, p: &Props, node: &ElementNode, limit: &Limit) -> (bool, [f64; 2]) {
     let range = p.reals(limit.range, [0.0; 2]);
     let span = p.span(limit.range).unwrap_or(node.span.clone());
     let given = p.has(limit.range) && range != [0.0; 2];

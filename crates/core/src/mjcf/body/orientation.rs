@@ -8,15 +8,20 @@ use crate::mjcf::classes::Props;
 use crate::mjcf::gather::listed;
 use crate::mjcf::rules;
 use crate::mjcf::schema::{ALTERNATIVES, is_form};
-use crate::mjcf::settings::Compiler;
+use crate::mjcf::settings::CompilerSettings;
 use crate::mjcf::text::diagnostic::Diagnostics;
-use crate::mjcf::text::tree::{Node, Tree};
+use crate::mjcf::text::tree::{ElementNode, ElementTree};
 
 /// The length below which a vector has no direction.
 const SHORTEST: f64 = 1e-14;
 
 /// The orientation of an element, or the identity if none is given.
-pub(crate) fn read(p: &Props, compiler: &Compiler, node: &Node, report: &mut Diagnostics) -> Quat {
+pub(crate) fn read(
+    p: &Props,
+    compiler: &CompilerSettings,
+    node: &ElementNode,
+    report: &mut Diagnostics,
+) -> Quat {
     let form = ALTERNATIVES.into_iter().find(|name| p.has(name)).unwrap_or("quat");
     let Some(given) = p.list(form) else { return IDENTITY };
     let result = match (form, given) {
@@ -39,7 +44,7 @@ pub(crate) fn read(p: &Props, compiler: &Compiler, node: &Node, report: &mut Dia
 }
 
 /// Reports elements that specify their orientation more than once.
-pub(crate) fn check_forms(tree: &Tree, report: &mut Diagnostics) {
+pub(crate) fn check_forms(tree: &ElementTree, report: &mut Diagnostics) {
     for node in &tree.nodes {
         let forms = node.attributes.iter().filter(|a| is_form(a.attr.name));
         let names: Vec<_> = listed(forms.map(|a| (a.attr.name, a.span.clone())));
@@ -75,7 +80,7 @@ fn quaternion(q: Quat) -> Result<Quat, String> {
 }
 
 /// The product of rotations about three axes in sequence.
-pub(crate) fn euler(angles: Vec3, compiler: &Compiler) -> Quat {
+pub(crate) fn euler(angles: Vec3, compiler: &CompilerSettings) -> Quat {
     let mut q = IDENTITY;
     for (angle, (axis, fixed)) in angles.into_iter().zip(compiler.eulerseq) {
         let mut unit = [0.0; 3];

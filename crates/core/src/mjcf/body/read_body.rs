@@ -12,8 +12,8 @@ use crate::mjcf::names::WORLD;
 use crate::mjcf::rules;
 use crate::mjcf::scene::read_scene;
 use crate::mjcf::settings::checked;
-use crate::mjcf::spec::{BodySpec, Inertia, List};
-use crate::mjcf::text::tree::{Node, name};
+use crate::mjcf::spec::{BodySpec, Inertia, NumberList};
+use crate::mjcf::text::tree::{ElementNode, name};
 
 /// The position of an element in the tree: its body, and the accumulated pose of the frames around it.
 #[derive(Clone, Copy)]
@@ -64,7 +64,7 @@ pub(crate) fn bodies(cx: &mut Context) -> Vec<BodySpec> {
 }
 
 /// The class of elements in a body or frame that have no class attribute.
-fn class_inside(cx: &Context, node: &Node, place: ElementSite) -> Option<usize> {
+fn class_inside(cx: &Context, node: &ElementNode, place: ElementSite) -> Option<usize> {
     node.text("childclass").and_then(|name| cx.classes.find(name)).or(place.childclass)
 }
 
@@ -82,7 +82,7 @@ fn empty(node: usize, span: std::ops::Range<usize>, name: String, parent: usize)
         simple: true,
         gravcomp: 0.0,
         sleep: 0,
-        user: List::default(),
+        user: NumberList::default(),
         inertial: None,
         inertial_span: None,
         joints: Vec::new(),
@@ -93,7 +93,7 @@ fn empty(node: usize, span: std::ops::Range<usize>, name: String, parent: usize)
     }
 }
 
-fn body(cx: &mut Context, i: usize, node: &Node, place: ElementSite) -> BodySpec {
+fn body(cx: &mut Context, i: usize, node: &ElementNode, place: ElementSite) -> BodySpec {
     let p = Props::written_props(node);
     let written = Pose { pos: p.reals("pos", [0.0; 3]), quat: cx.orientation(&p, node) };
     let Pose { pos, quat } = place.frame.in_parent(written.pos, written.quat);
@@ -106,13 +106,13 @@ fn body(cx: &mut Context, i: usize, node: &Node, place: ElementSite) -> BodySpec
         simple: p.flag("simple", true),
         gravcomp: p.real("gravcomp").unwrap_or(0.0),
         sleep: p.keyword("sleep").unwrap_or(0),
-        user: List::read(&p, "user"),
+        user: NumberList::read(&p, "user"),
         ..empty(i, node.span.clone(), name(node), place.body)
     }
 }
 
 /// Reads a member of a body.
-fn member(cx: &mut Context, i: usize, node: &Node, place: ElementSite, body: &mut BodySpec) {
+fn member(cx: &mut Context, i: usize, node: &ElementNode, place: ElementSite, body: &mut BodySpec) {
     let (frame, class) = (place.frame, place.childclass);
     if place.body == 0 && matches!(node.element.name, "inertial" | "joint" | "freejoint") {
         // Directly in `worldbody`, the schema refuses these elements. Here they are inside a frame.
@@ -171,7 +171,7 @@ fn member(cx: &mut Context, i: usize, node: &Node, place: ElementSite, body: &mu
 }
 
 /// Reads an explicit inertia.
-fn inertial(cx: &mut Context, node: &Node) -> Option<Inertia> {
+fn inertial(cx: &mut Context, node: &ElementNode) -> Option<Inertia> {
     let p = Props::written_props(node);
     let mut complete = true;
     for (name, why) in

@@ -6,14 +6,14 @@ use crate::math::{norm, normalize};
 use crate::mjcf::classes::Props;
 use crate::mjcf::context::Context;
 use crate::mjcf::rules;
-use crate::mjcf::spec::{JointSpec, List, SOLIMP, SOLREF};
-use crate::mjcf::text::tree::{Node, name};
+use crate::mjcf::spec::{JointSpec, NumberList, SOLIMP, SOLREF};
+use crate::mjcf::text::tree::{ElementNode, name};
 
 /// The length below which an axis has no direction.
 const SHORTEST_AXIS: f64 = 1e-6;
 
 /// A `joint` or `freejoint` element.
-pub(crate) fn joint(cx: &mut Context, i: usize, node: &Node, childclass: Option<usize>) -> JointSpec {
+pub(crate) fn joint(cx: &mut Context, i: usize, node: &ElementNode, childclass: Option<usize>) -> JointSpec {
     // The element `freejoint` takes no defaults, because these are meant for the other joint types.
     let free = node.element.name == "freejoint";
     let p = if free { Props::written_props(node) } else { cx.classes.props(node, childclass) };
@@ -45,7 +45,7 @@ pub(crate) fn joint(cx: &mut Context, i: usize, node: &Node, childclass: Option<
         actfrcrange,
         actgravcomp: p.flag("actuatorgravcomp", false),
         group: p.int("group").unwrap_or(0),
-        user: List::read(&p, "user"),
+        user: NumberList::read(&p, "user"),
         armature: p.real("armature").unwrap_or(0.0),
         reference,
         springref,
@@ -54,7 +54,7 @@ pub(crate) fn joint(cx: &mut Context, i: usize, node: &Node, childclass: Option<
     }
 }
 
-fn axis(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> [f64; 3] {
+fn axis(cx: &mut Context, p: &Props, node: &ElementNode, kind: i32) -> [f64; 3] {
     let z = [0.0, 0.0, 1.0];
     if kind == joint::FREE || kind == joint::BALL {
         return z;
@@ -73,7 +73,7 @@ fn axis(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> [f64; 3] {
 }
 
 /// Whether the joint is limited, and its range, with angles in radians.
-fn limits(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> (bool, [f64; 2]) {
+fn limits(cx: &mut Context, p: &Props, node: &ElementNode, kind: i32) -> (bool, [f64; 2]) {
     if kind == joint::FREE {
         return (false, p.reals("range", [0.0; 2]));
     }
@@ -93,7 +93,7 @@ fn limits(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> (bool, [f64; 2
 }
 
 /// Whether the force of actuators is limited, and its range. Only for slides and hinges.
-fn force_limits(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> (bool, [f64; 2]) {
+fn force_limits(cx: &mut Context, p: &Props, node: &ElementNode, kind: i32) -> (bool, [f64; 2]) {
     if matches!(kind, joint::FREE | joint::BALL) {
         return (false, p.reals("actuatorfrcrange", [0.0; 2]));
     }
@@ -101,7 +101,7 @@ fn force_limits(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> (bool, [
 }
 
 /// The time constant and the damping ratio from which stiffness and damping are computed, or `None` if they are not given.
-fn springdamper(cx: &mut Context, p: &Props, node: &Node) -> Option<[f64; 2]> {
+fn springdamper(cx: &mut Context, p: &Props, node: &ElementNode) -> Option<[f64; 2]> {
     let given = p.reals("springdamper", [0.0; 2]);
     if given == [0.0; 2] {
         return None;

@@ -2,7 +2,7 @@
 
 use super::inertia::describe_body;
 use crate::kinds::trntype;
-use crate::mjcf::layout::Layout;
+use crate::mjcf::layout::TreeLayout;
 use crate::mjcf::rules;
 use crate::mjcf::spec::BodySpec;
 use crate::mjcf::text::diagnostic::Diagnostics;
@@ -10,7 +10,7 @@ use crate::model::Model;
 use crate::model::asleep::policy;
 
 /// Reports a `sleep` attribute at a body that is not the first moving body of a tree.
-pub(crate) fn check_policies(bodies: &[BodySpec], layout: &Layout, report: &mut Diagnostics) {
+pub(crate) fn check_policies(bodies: &[BodySpec], layout: &TreeLayout, report: &mut Diagnostics) {
     for body in bodies.iter().skip(1).filter(|b| b.sleep != 0) {
         let carried = layout.body_tree.get(body.parent).is_some_and(|&t| t >= 0);
         if carried || body.joints.is_empty() {

@@ -5,7 +5,7 @@ use crate::mjcf::gather::listed;
 use crate::mjcf::ids::References;
 use crate::mjcf::rules;
 use crate::mjcf::spec::{BodySpec, ExcludeSpec, PairSpec, SOLIMP, SOLREF};
-use crate::mjcf::text::tree::{Node, name};
+use crate::mjcf::text::tree::{ElementNode, name};
 use labspec_finding::order::sort_by_key;
 
 /// All pairs and exclusions, each in the order of their bodies.
@@ -45,7 +45,7 @@ fn signature(body1: i32, body2: i32) -> i32 {
     body1.wrapping_shl(16).wrapping_add(body2)
 }
 
-fn pair(cx: &mut Context, refs: References, node: &Node, body_of: &[i32]) -> Option<PairSpec> {
+fn pair(cx: &mut Context, refs: References, node: &ElementNode, body_of: &[i32]) -> Option<PairSpec> {
     let p = cx.classes.props_of("pair", node, None);
     let geom1 = refs.required("geom", node, "geom1", cx.report);
     let geom2 = refs.required("geom", node, "geom2", cx.report);

@@ -8,7 +8,7 @@ use crate::mjcf::ids::References;
 use crate::mjcf::rules;
 use crate::mjcf::spec::{EqualitySpec, SOLIMP, SOLREF};
 use crate::mjcf::text::diagnostic::Diagnostics;
-use crate::mjcf::text::tree::{Node, name};
+use crate::mjcf::text::tree::{ElementNode, name};
 use crate::model::Obj;
 
 /// All equality constraints in the order of the text.
@@ -21,7 +21,7 @@ pub(crate) fn equalities(cx: &mut Context, refs: References) -> Vec<EqualitySpec
 /// The objects of a constraint (kind, first, second) and its data.
 type EqualityData = (Obj, i32, i32, [f64; 11]);
 
-fn equality(cx: &mut Context, refs: References, node: &Node) -> Option<EqualitySpec> {
+fn equality(cx: &mut Context, refs: References, node: &ElementNode) -> Option<EqualitySpec> {
     let p = cx.classes.props_of("equality", node, None);
     let report = &mut *cx.report;
     let (kind, tied) = match node.element.name {
@@ -58,7 +58,7 @@ fn equality(cx: &mut Context, refs: References, node: &Node) -> Option<EqualityS
 fn bodies_or_sites(
     refs: References,
     p: &Props,
-    node: &Node,
+    node: &ElementNode,
     report: &mut Diagnostics,
 ) -> Option<EqualityData> {
     let given = |attribute: &str| node.attribute(attribute).is_some();
@@ -107,7 +107,7 @@ fn bodies_or_sites(
 fn coupled(
     refs: References,
     p: &Props,
-    node: &Node,
+    node: &ElementNode,
     objtype: Obj,
     report: &mut Diagnostics,
 ) -> Option<EqualityData> {

@@ -8,7 +8,7 @@ use crate::mjcf::names::WORLD;
 use crate::mjcf::rules;
 use crate::mjcf::schema::{BODY, FRAME};
 use crate::mjcf::text::diagnostic::{Diagnostics, nearest, shorten_name};
-use crate::mjcf::text::tree::{Attribute, Node};
+use crate::mjcf::text::tree::{Attribute, ElementNode};
 use crate::mjcf::text::values::Value;
 
 impl Expander {
@@ -53,7 +53,7 @@ impl Expander {
     fn attach_element(
         &mut self,
         at: usize,
-        node: &Node,
+        node: &ElementNode,
         prefix: &str,
         part: Option<(&'static str, &str)>,
         report: &mut Diagnostics,
@@ -112,7 +112,7 @@ impl Expander {
     fn attach_model(
         &mut self,
         at: usize,
-        node: &Node,
+        node: &ElementNode,
         prefix: &str,
         child: &mut Child,
         part: Option<(&'static str, &str)>,
@@ -157,7 +157,7 @@ impl Expander {
     /// Copies elements of another model into an element of this one.
     fn copy_roots(
         &mut self,
-        nodes: &[Node],
+        nodes: &[ElementNode],
         roots: &[usize],
         rename: Rename,
         holder: usize,
@@ -171,7 +171,12 @@ impl Expander {
     }
 
     /// Copies the elements of another model that are copied for every attached part.
-    fn copy_dependencies(&mut self, nodes: &[Node], rename: Rename, request: &Node) -> Option<()> {
+    fn copy_dependencies(
+        &mut self,
+        nodes: &[ElementNode],
+        rename: Rename,
+        request: &ElementNode,
+    ) -> Option<()> {
         for (section, at) in dependencies(nodes) {
             let (mut copy, _) = copy::copy(nodes, at, rename, None);
             add_main_class(&mut copy, rename, request);
@@ -189,7 +194,7 @@ impl Expander {
 /// The elements of another model that are attached. `None`, with an error in the report, if a name is unknown.
 fn roots_to_attach(
     child: &Child,
-    request: &Node,
+    request: &ElementNode,
     part: Option<(&'static str, &str)>,
     report: &mut Diagnostics,
 ) -> Option<Vec<usize>> {
@@ -207,13 +212,13 @@ fn roots_to_attach(
 }
 
 /// The body that replaces the world of another model.
-fn world_body(request: &Node, rename: Rename, model: usize) -> Option<Node> {
+fn world_body(request: &ElementNode, rename: Rename, model: usize) -> Option<ElementNode> {
     let name = Attribute {
         attr: BODY.attribute("name")?,
         value: Value::Text(rename.name(WORLD)),
         span: request.span.clone(),
     };
-    Some(Node {
+    Some(ElementNode {
         element: &BODY,
         model,
         attributes: vec![name],
@@ -224,7 +229,7 @@ fn world_body(request: &Node, rename: Rename, model: usize) -> Option<Node> {
 }
 
 /// The class of elements at this position that have no class attribute, or `None` for the main class. A copy keeps this class.
-fn inherited_class(nodes: &[Node], at: usize) -> Option<&str> {
+fn inherited_class(nodes: &[ElementNode], at: usize) -> Option<&str> {
     let mut up = nodes.get(at)?.parent;
     while let Some(node) = up.and_then(|at| nodes.get(at)) {
         if let Some(class) = node.text("childclass") {
@@ -236,7 +241,7 @@ fn inherited_class(nodes: &[Node], at: usize) -> Option<&str> {
 }
 
 /// The attribute with the class of the contents of a copy.
-fn childclass(request: &Node, class: String) -> Option<Attribute> {
+fn childclass(request: &ElementNode, class: String) -> Option<Attribute> {
     let attr = FRAME.attribute("childclass")?;
     Some(Attribute { attr, value: Value::Text(class), span: request.span.clone() })
 }
@@ -260,7 +265,7 @@ fn report_unknown<'n>(
 }
 
 /// An element of another model without a class gets the main class of that model.
-fn add_main_class(copy: &mut [Node], rename: Rename, request: &Node) {
+fn add_main_class(copy: &mut [ElementNode], rename: Rename, request: &ElementNode) {
     let Some(node) = copy.first_mut() else { return };
     let without =
         node.attribute("class").is_none() || node.element.name == "default" && node.text("class").is_none();
@@ -271,7 +276,7 @@ fn add_main_class(copy: &mut [Node], rename: Rename, request: &Node) {
 }
 
 /// The elements that are copied for every attached part of another model: all classes and assets, numbers and texts.
-fn dependencies(nodes: &[Node]) -> Vec<(&'static str, usize)> {
+fn dependencies(nodes: &[ElementNode]) -> Vec<(&'static str, usize)> {
     let mut list: Vec<_> = Vec::new();
     for &at in nodes.first().map_or(&[][..], |root| &root.children) {
         let Some(section) = nodes.get(at) else { continue };
@@ -292,7 +297,7 @@ fn dependencies(nodes: &[Node]) -> Vec<(&'static str, usize)> {
 }
 
 /// The elements of all sections of a name.
-fn members(nodes: &[Node], section: &str) -> Vec<usize> {
+fn members(nodes: &[ElementNode], section: &str) -> Vec<usize> {
     let sections = nodes.first().map_or(&[][..], |root| &root.children);
     let sections = sections.iter().filter_map(|&s| nodes.get(s)).filter(|s| s.element.name == section);
     listed(sections.flat_map(|s| s.children.iter().copied()))

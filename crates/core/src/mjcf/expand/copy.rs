@@ -1,8 +1,8 @@
 //! Copies of elements with renamed objects.
 
 use super::references::{Names, is_asset, kind_of};
-use crate::mjcf::schema::Kind;
-use crate::mjcf::text::tree::Node;
+use crate::mjcf::schema::AttributeType;
+use crate::mjcf::text::tree::ElementNode;
 use crate::mjcf::text::values::Value;
 
 /// The change of names in a copy.
@@ -11,7 +11,7 @@ pub(super) struct Rename<'a> {
     pub(super) prefix: &'a str,
     pub(super) suffix: &'a str,
     /// `Some` if the copy comes from another model. Its assets and classes are then copied and renamed, and its numbers keep
-    /// their meaning in that model. The value is added to [`Node::model`].
+    /// their meaning in that model. The value is added to [`ElementNode::model`].
     pub(super) other_model: Option<usize>,
 }
 
@@ -41,12 +41,12 @@ impl Rename<'_> {
 ///
 /// References are renamed if `copied` contains the referenced object, or if `copied` is `None`.
 pub(super) fn copy(
-    nodes: &[Node],
+    nodes: &[ElementNode],
     root: usize,
     rename: Rename,
     copied: Option<&Names>,
-) -> (Vec<Node>, Vec<usize>) {
-    let (mut copy, mut from): (Vec<Node>, Vec<usize>) = (Vec::new(), Vec::new());
+) -> (Vec<ElementNode>, Vec<usize>) {
+    let (mut copy, mut from): (Vec<ElementNode>, Vec<usize>) = (Vec::new(), Vec::new());
     let mut stack = vec![(root, None)];
     while let Some((at, parent)) = stack.pop() {
         let Some(node) = nodes.get(at) else { continue };
@@ -54,7 +54,7 @@ pub(super) fn copy(
         if let Some(parent) = parent.and_then(|p: usize| copy.get_mut(p)) {
             parent.children.push(here);
         }
-        let mut renamed = Node { parent, children: Vec::new(), ..node.clone() };
+        let mut renamed = ElementNode { parent, children: Vec::new(), ..node.clone() };
         renamed.model += rename.other_model.unwrap_or(0);
         for i in 0..renamed.attributes.len() {
             if let Some(name) = new_name(node, i, rename, copied)
@@ -71,15 +71,15 @@ pub(super) fn copy(
 }
 
 /// The new text of an attribute that is a name, or `None` if it does not change.
-fn new_name(node: &Node, i: usize, rename: Rename, copied: Option<&Names>) -> Option<String> {
+fn new_name(node: &ElementNode, i: usize, rename: Rename, copied: Option<&Names>) -> Option<String> {
     let a = node.attributes.get(i)?;
     let Value::Text(text) = &a.value else { return None };
     if text.is_empty() {
         return None;
     }
     match (a.attr.kind, kind_of(node, a)) {
-        (Kind::Name(_), _) => Some(rename.name(text)),
-        (Kind::Class, _) => rename.other_model.map(|_| rename.class(text)),
+        (AttributeType::Name(_), _) => Some(rename.name(text)),
+        (AttributeType::Class, _) => rename.other_model.map(|_| rename.class(text)),
         (_, Some(kind)) if is_asset(kind) => rename.other_model.map(|_| rename.name(text)),
         (_, Some(kind)) => {
             let follows = copied.is_none_or(|names| names.contains(&(kind, text.clone())));
@@ -90,7 +90,7 @@ fn new_name(node: &Node, i: usize, rename: Rename, copied: Option<&Names>) -> Op
 }
 
 /// The names of an element and all its descendants.
-pub(super) fn names(nodes: &[Node], root: usize) -> Names {
+pub(super) fn names(nodes: &[ElementNode], root: usize) -> Names {
     let mut names = Names::new();
     let mut stack = vec![root];
     while let Some(node) = stack.pop().and_then(|at| nodes.get(at)) {
@@ -101,9 +101,9 @@ pub(super) fn names(nodes: &[Node], root: usize) -> Names {
 }
 
 /// The kind and name of an element, if it has a name.
-pub(super) fn own_name(node: &Node) -> Option<(&'static str, String)> {
+pub(super) fn own_name(node: &ElementNode) -> Option<(&'static str, String)> {
     node.attributes.iter().find_map(|a| match (a.attr.kind, &a.value) {
-        (Kind::Name(kind), Value::Text(name)) if !name.is_empty() => Some((kind, name.clone())),
+        (AttributeType::Name(kind), Value::Text(name)) if !name.is_empty() => Some((kind, name.clone())),
         _ => None,
     })
 }

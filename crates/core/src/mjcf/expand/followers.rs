@@ -5,13 +5,13 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::copy::own_name;
 use super::references::{self, Names, SECTIONS};
-use crate::mjcf::text::tree::Node;
+use crate::mjcf::text::tree::ElementNode;
 
 /// The elements of [`SECTIONS`], indexed by the objects that they refer to.
 #[derive(Debug, Default)]
 pub(super) struct Uses {
     /// For each object, the section (an index of [`SECTIONS`]) and the element of each reference to it.
-    of: BTreeMap<(&'static str, String), Vec<(usize, usize)>>,
+    by_object: BTreeMap<(&'static str, String), Vec<(usize, usize)>>,
     /// Elements without references.
     free: Vec<(usize, usize)>,
     gone: BTreeSet<usize>,
@@ -32,13 +32,13 @@ pub(super) struct Followers {
 }
 
 /// Whether an element can be copied with a part. Custom numbers and texts belong to the model as a whole.
-pub(super) fn can_follow(section: &str, node: &Node) -> bool {
+pub(super) fn can_follow(section: &str, node: &ElementNode) -> bool {
     section != "custom" || node.element.name == "tuple"
 }
 
 impl Uses {
     /// Adds an element to the index.
-    pub(super) fn add(&mut self, section: &str, nodes: &[Node], at: usize) {
+    pub(super) fn add(&mut self, section: &str, nodes: &[ElementNode], at: usize) {
         let Some(section) = SECTIONS.iter().position(|s| *s == section) else { return };
         if !nodes.get(at).is_some_and(|node| can_follow(SECTIONS[section], node)) {
             return;
@@ -48,7 +48,7 @@ impl Uses {
             self.free.push((section, at));
         }
         for object in refs {
-            self.of.entry(object).or_default().push((section, at));
+            self.by_object.entry(object).or_default().push((section, at));
         }
     }
 
@@ -63,7 +63,7 @@ impl Uses {
     }
 
     /// The index of all elements of a tree.
-    pub(super) fn build_index(nodes: &[Node]) -> Uses {
+    pub(super) fn build_index(nodes: &[ElementNode]) -> Uses {
         let mut uses = Uses::default();
         for &section in nodes.first().map_or(&[][..], |root| &root.children) {
             let Some(section) = nodes.get(section) else { continue };
@@ -76,12 +76,17 @@ impl Uses {
 
     /// The elements that are copied together with a part that has these names: those that refer to it, directly or through
     /// other copied elements, and those without references.
-    pub(super) fn followers(&self, nodes: &[Node], subtree: &Names, other_model: bool) -> Vec<Followers> {
+    pub(super) fn followers(
+        &self,
+        nodes: &[ElementNode],
+        subtree: &Names,
+        other_model: bool,
+    ) -> Vec<Followers> {
         let mut bound: BTreeSet<(usize, usize)> = BTreeSet::new();
         let mut followed = subtree.clone();
         let mut new: Vec<(&'static str, String)> = listed(subtree.iter().cloned());
         while let Some(object) = new.pop() {
-            for &(section, at) in self.of.get(&object).map_or(&[][..], Vec::as_slice) {
+            for &(section, at) in self.by_object.get(&object).map_or(&[][..], Vec::as_slice) {
                 if !self.gone.contains(&at) && bound.insert((section, at)) {
                     new.extend(nodes.get(at).and_then(own_name).filter(|name| followed.insert(name.clone())));
                 }

@@ -16,14 +16,14 @@ use std::collections::BTreeMap;
 
 use super::MAX_ELEMENTS;
 use super::schema::{FRAME, ROOT};
-use super::settings::Compiler;
+use super::settings::CompilerSettings;
 use crate::math::{Vec3, add, rotate};
 use crate::mjcf::body::orientation;
 use crate::mjcf::keyword_map::KeywordMap;
 use crate::mjcf::rules;
 use crate::mjcf::text::diagnostic::Diagnostics;
 use crate::mjcf::text::load::UnexpandedModel;
-use crate::mjcf::text::tree::{Attribute, Node, Tree};
+use crate::mjcf::text::tree::{Attribute, ElementNode, ElementTree};
 use crate::mjcf::text::values::Value;
 use copy::Rename;
 use followers::{Followers, Uses};
@@ -36,7 +36,7 @@ const MAX_COPIED: usize = 200 << 20;
 #[derive(Clone, Debug)]
 pub(crate) struct AttachedModel {
     /// The compiler settings that determine the meaning of its angles, ranges and inertias.
-    pub(crate) compiler: Compiler,
+    pub(crate) compiler: CompilerSettings,
     /// The folder of its files.
     pub(crate) folder: String,
 }
@@ -44,14 +44,14 @@ pub(crate) struct AttachedModel {
 /// A model after the expansion of `replicate` and `attach`.
 #[derive(Debug)]
 pub(crate) struct Expanded {
-    pub(crate) tree: Tree,
-    /// The models, indexed by [`Node::model`].
+    pub(crate) tree: ElementTree,
+    /// The models, indexed by [`ElementNode::model`].
     pub(crate) parts: Vec<AttachedModel>,
 }
 
 /// Expands all requests of a model.
 pub(crate) fn model(written: UnexpandedModel, report: &mut Diagnostics) -> Expanded {
-    let compiler = Compiler::read(&written.tree, report);
+    let compiler = CompilerSettings::read(&written.tree, report);
     let child = |(name, written)| (name, Child::new(model(written, report)));
     let models = filled(written.models.into_iter().map(child));
     let nodes = written.tree.nodes;
@@ -111,7 +111,7 @@ impl Child {
 
 struct Expander {
     /// All elements, including patterns of copies. Only elements that are reachable from the root belong to the result.
-    nodes: Vec<Node>,
+    nodes: Vec<ElementNode>,
     uses: Uses,
     /// The bytes of all copies.
     bytes: usize,
@@ -156,7 +156,7 @@ impl Expander {
     }
 
     /// Appends a copy to the list and returns its index. `None` if a limit is exceeded.
-    fn append_copy(&mut self, copy: Vec<Node>, parent: usize) -> Option<usize> {
+    fn append_copy(&mut self, copy: Vec<ElementNode>, parent: usize) -> Option<usize> {
         let base = self.nodes.len();
         for mut node in copy {
             node.parent = Some(node.parent.map_or(parent, |p| base + p));
@@ -183,13 +183,13 @@ impl Expander {
     }
 
     /// Appends an element to a section.
-    fn append(&mut self, section: &'static str, copy: Vec<Node>) -> Option<usize> {
+    fn append(&mut self, section: &'static str, copy: Vec<ElementNode>) -> Option<usize> {
         let at = match self.sections.get(section) {
             Some(&at) => at,
             None => {
                 let element = ROOT.child(section)?;
                 let span = self.nodes.first()?.span.clone();
-                let node = Node {
+                let node = ElementNode {
                     element,
                     model: 0,
                     parent: Some(0),
@@ -240,8 +240,8 @@ impl Expander {
             ];
             pos = add(pos, rotate(offset, quat));
 
-            let frame = Node { element: &FRAME, attributes, children: Vec::new(), ..node.clone() };
-            let frame = self.append_copy(vec![Node { parent: None, ..frame }], at)?;
+            let frame = ElementNode { element: &FRAME, attributes, children: Vec::new(), ..node.clone() };
+            let frame = self.append_copy(vec![ElementNode { parent: None, ..frame }], at)?;
             for &child in &node.children {
                 let (copy, _) = copy::copy(&self.nodes, child, rename, None);
                 let copy = self.append_copy(copy, frame)?;
@@ -295,12 +295,12 @@ impl Expander {
                 section.children.retain(|&at| !self.uses.is_removed(at));
             }
         }
-        Expanded { tree: Tree { nodes: in_order(&self.nodes) }, parts: self.parts }
+        Expanded { tree: ElementTree { nodes: in_order(&self.nodes) }, parts: self.parts }
     }
 }
 
 /// The number of copies.
-fn count(node: &Node, report: &mut Diagnostics) -> Option<i32> {
+fn count(node: &ElementNode, report: &mut Diagnostics) -> Option<i32> {
     let Some(attribute) = node.attribute("count") else {
         report
             .error(rules::MISSING_ATTRIBUTE, node.span.clone(), "replicate has no `count`")
@@ -317,18 +317,18 @@ fn count(node: &Node, report: &mut Diagnostics) -> Option<i32> {
 }
 
 /// The kind and name of an element that `attach` can refer to.
-fn target(node: &Node) -> Option<(&'static str, String)> {
+fn target(node: &ElementNode) -> Option<(&'static str, String)> {
     let kind = ["body", "frame"].into_iter().find(|kind| *kind == node.element.name)?;
     Some((kind, node.text("name")?.to_string()))
 }
 
 /// An attribute of a frame, with the span of the request.
-fn written(request: &Node, name: &str, value: Value) -> Option<Attribute> {
+fn written(request: &ElementNode, name: &str, value: Value) -> Option<Attribute> {
     Some(Attribute { attr: FRAME.attribute(name)?, value, span: request.span.clone() })
 }
 
 /// The approximate size of an element, bytes.
-fn weight(node: &Node) -> usize {
+fn weight(node: &ElementNode) -> usize {
     let value = |a: &Attribute| match &a.value {
         Value::Text(text) => text.len(),
         // Lists of numbers are shared.
@@ -338,7 +338,7 @@ fn weight(node: &Node) -> usize {
 }
 
 /// All elements that are reachable from the root, in the order of the text.
-fn in_order(nodes: &[Node]) -> Vec<Node> {
+fn in_order(nodes: &[ElementNode]) -> Vec<ElementNode> {
     let rename = Rename { prefix: "", suffix: "", other_model: None };
     copy::copy(nodes, 0, rename, None).0
 }

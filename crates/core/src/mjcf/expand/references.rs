@@ -4,8 +4,8 @@ use crate::mjcf::gather::{filled, listed};
 use std::collections::BTreeSet;
 
 use crate::mjcf::names::WORLD;
-use crate::mjcf::schema::Kind;
-use crate::mjcf::text::tree::{Attribute, Node};
+use crate::mjcf::schema::AttributeType;
+use crate::mjcf::text::tree::{Attribute, ElementNode};
 use crate::mjcf::text::values::Value;
 use crate::model::Obj;
 
@@ -21,14 +21,14 @@ pub(super) fn is_asset(kind: &str) -> bool {
 }
 
 /// The kind of object that an attribute names, or `None` if the attribute is not a reference.
-pub(crate) fn kind_of(node: &Node, attribute: &Attribute) -> Option<&'static str> {
+pub(crate) fn kind_of(node: &ElementNode, attribute: &Attribute) -> Option<&'static str> {
     // The kind of the object is the value of another attribute.
     let chosen = match attribute.attr.name {
         "objname" => node.attribute("objtype"),
         "refname" => node.attribute("reftype"),
         _ => {
             return match attribute.attr.kind {
-                Kind::Ref(kind) => Some(kind),
+                AttributeType::Ref(kind) => Some(kind),
                 _ => None,
             };
         }
@@ -55,10 +55,10 @@ fn keyword(n: i32) -> Option<&'static str> {
 }
 
 /// The objects that an element and its children refer to, except assets.
-pub(super) fn list_references(nodes: &[Node], at: usize) -> Vec<(&'static str, String)> {
+pub(super) fn list_references(nodes: &[ElementNode], at: usize) -> Vec<(&'static str, String)> {
     let Some(node) = nodes.get(at) else { return Vec::new() };
     let children = node.children.iter().filter_map(|&c| nodes.get(c));
-    let named = |n: &Node| {
+    let named = |n: &ElementNode| {
         let refs = n.attributes.iter().filter_map(|a| match (kind_of(n, a), &a.value) {
             (Some(kind), Value::Text(name)) if !name.is_empty() && !is_asset(kind) => {
                 Some((kind, name.clone()))

@@ -1,17 +1,17 @@
 //! The form of a geom: a primitive shape, a mesh, a primitive shape that replaces a mesh, or a height field.
 
-use super::shapes::{self, Shape};
+use super::shapes::{self, GeomTypeProperties};
 use crate::kinds::geom;
 use crate::math::{Vec3, norm};
 use crate::mjcf::body::frame::Pose;
 use crate::mjcf::classes::Props;
 use crate::mjcf::context::Context;
 use crate::mjcf::rules;
-use crate::mjcf::text::tree::Node;
+use crate::mjcf::text::tree::ElementNode;
 
 /// The properties that depend on the form of a geom.
 #[derive(Debug)]
-pub(crate) struct Form {
+pub(crate) struct GeomForm {
     pub(crate) size: Vec3,
     /// Id of the mesh or height field, -1 if none.
     pub(crate) data: i32,
@@ -28,15 +28,15 @@ pub(crate) struct Form {
     pub(crate) moments: Vec3,
 }
 
-impl Form {
+impl GeomForm {
     /// A primitive shape of these sizes.
-    pub(crate) fn primitive(shape: &Shape, size: Vec3, shell: bool) -> Form {
+    pub(crate) fn primitive(shape: &GeomTypeProperties, size: Vec3, shell: bool) -> GeomForm {
         let (amount, moments) =
             if shell { (shape.surface, shape.shell) } else { (shape.volume, shape.inertia) };
         let [x, y, z] = (shape.half)(size);
         // A solid is centred in its frame; a plane fills the space below it.
         let middle = if shape.kind == geom::PLANE { -z } else { 0.0 };
-        Form {
+        GeomForm {
             size,
             data: -1,
             mesh_pose: Pose::NONE,
@@ -49,26 +49,31 @@ impl Form {
 }
 
 /// The form of a geom with a mesh or a height field. `None` if there is none, or if an error was reported.
-pub(crate) fn of_asset(cx: &mut Context, p: &Props, node: &Node, shape: &Shape) -> Option<Form> {
+pub(crate) fn of_asset(
+    cx: &mut Context,
+    p: &Props,
+    node: &ElementNode,
+    shape: &GeomTypeProperties,
+) -> Option<GeomForm> {
     let shell = p.flag("shellinertia", false);
     if shape.kind == geom::HFIELD {
         let (data, field) = cx.assets.hfield(p.text("hfield")?)?;
-        let form = Form::primitive(shape, field.geom_size(), shell);
-        return Some(Form { data, aabb: field.aabb(), rbound: field.rbound(), ..form });
+        let form = GeomForm::primitive(shape, field.geom_size(), shell);
+        return Some(GeomForm { data, aabb: field.aabb(), rbound: field.rbound(), ..form });
     }
     let (data, mesh) = cx.assets.mesh(p.text("mesh")?)?;
     if shape.kind == geom::MESH {
         let mesh_pose = Pose { pos: mesh.pos, quat: mesh.quat };
         let size = mesh.reach();
         let (aabb, rbound, amount, moments) = (mesh.aabb(), norm(size), mesh.amount, mesh.moments());
-        return Some(Form { size, data, mesh_pose, aabb, rbound, amount, moments });
+        return Some(GeomForm { size, data, mesh_pose, aabb, rbound, amount, moments });
     }
     let bounding = cx.parts.get(node.model).is_some_and(|part| part.compiler.fitaabb);
     let scale = p.real("fitscale").unwrap_or(1.0);
     match mesh.fit(shape.kind, bounding) {
         Some((pos, size)) => {
-            let form = Form::primitive(shape, size.map(|x| x * scale), shell);
-            Some(Form { data, mesh_pose: Pose { pos, quat: mesh.quat }, ..form })
+            let form = GeomForm::primitive(shape, size.map(|x| x * scale), shell);
+            Some(GeomForm { data, mesh_pose: Pose { pos, quat: mesh.quat }, ..form })
         }
         None => {
             let message = format!("{} is a {} with a `mesh`", node.describe(), shape.name);
@@ -82,7 +87,7 @@ pub(crate) fn of_asset(cx: &mut Context, p: &Props, node: &Node, shape: &Shape) 
 }
 
 /// Reports attributes that are inconsistent with a mesh or a height field. Returns whether the geom or site has a form.
-pub(crate) fn check_form(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> bool {
+pub(crate) fn check_form(cx: &mut Context, p: &Props, node: &ElementNode, kind: i32) -> bool {
     let needs = match kind {
         geom::MESH => Some("mesh"),
         geom::HFIELD => Some("hfield"),

@@ -1,7 +1,7 @@
 //! Geoms: shape, inertia and the parameters of their contacts.
 
-use super::read_form::{self, Form};
-use super::shapes::{self, Shape};
+use super::read_form::{self, GeomForm};
+use super::shapes::{self, GeomTypeProperties};
 use crate::kinds::geom;
 use crate::math::{MINVAL, Quat, Vec3, normalize, quat_normalize, scale, sub};
 use crate::mjcf::body::frame::Pose;
@@ -10,11 +10,16 @@ use crate::mjcf::classes::Props;
 use crate::mjcf::context::Context;
 use crate::mjcf::rules;
 use crate::mjcf::settings::checked;
-use crate::mjcf::spec::{GeomSpec, List, SOLIMP, SOLREF};
-use crate::mjcf::text::tree::{Node, name};
+use crate::mjcf::spec::{GeomSpec, NumberList, SOLIMP, SOLREF};
+use crate::mjcf::text::tree::{ElementNode, name};
 
 /// Reads a `geom` element. `None` if its type was refused.
-pub(crate) fn geom(cx: &mut Context, i: usize, node: &Node, childclass: Option<usize>) -> Option<GeomSpec> {
+pub(crate) fn geom(
+    cx: &mut Context,
+    i: usize,
+    node: &ElementNode,
+    childclass: Option<usize>,
+) -> Option<GeomSpec> {
     let p = cx.classes.props(node, childclass);
     if p.has("type") && p.keyword("type").is_none() {
         return None;
@@ -52,7 +57,7 @@ pub(crate) fn geom(cx: &mut Context, i: usize, node: &Node, childclass: Option<u
         material: material.map(str::to_string),
         surfacevel: p.reals("surfacevel", [0.0; 6]),
         adhesion: p.real("adhesion").unwrap_or(0.0),
-        user: List::read(&p, "user"),
+        user: NumberList::read(&p, "user"),
         only_static: shape.only_static,
         contype: p.int("contype").unwrap_or(1),
         conaffinity: p.int("conaffinity").unwrap_or(1),
@@ -73,14 +78,14 @@ pub(crate) fn geom(cx: &mut Context, i: usize, node: &Node, childclass: Option<u
 fn form_at(
     cx: &mut Context,
     p: &Props,
-    node: &Node,
-    shape: &Shape,
+    node: &ElementNode,
+    shape: &GeomTypeProperties,
     size: Vec3,
     pose: Pose,
-) -> Option<(Form, Pose)> {
+) -> Option<(GeomForm, Pose)> {
     if !form_is_of_asset(p, shape) {
         check_size(cx, p, node, shape, size);
-        return Some((Form::primitive(shape, size, p.flag("shellinertia", false)), pose));
+        return Some((GeomForm::primitive(shape, size, p.flag("shellinertia", false)), pose));
     }
     if !read_form::check_form(cx, p, node, shape.kind) {
         return None;
@@ -102,7 +107,7 @@ pub(crate) struct Span {
 pub(crate) fn fromto(
     cx: &mut Context,
     p: &Props,
-    node: &Node,
+    node: &ElementNode,
     shape: &str,
     length: Option<usize>,
 ) -> Option<Span> {
@@ -128,7 +133,7 @@ pub(crate) fn fromto(
 }
 
 /// Coefficients of fluid forces, for a geom with the ellipsoid model.
-fn fluid(p: &Props, shape: &Shape, size: Vec3) -> [f64; 12] {
+fn fluid(p: &Props, shape: &GeomTypeProperties, size: Vec3) -> [f64; 12] {
     if p.keyword("fluidshape") != Some(geom::ELLIPSOID) || shape.only_static {
         return [0.0; 12];
     }
@@ -136,7 +141,7 @@ fn fluid(p: &Props, shape: &Shape, size: Vec3) -> [f64; 12] {
 }
 
 /// Checks the sizes that the shape requires.
-fn check_size(cx: &mut Context, p: &Props, node: &Node, shape: &Shape, size: Vec3) {
+fn check_size(cx: &mut Context, p: &Props, node: &ElementNode, shape: &GeomTypeProperties, size: Vec3) {
     if p.has("size") && p.list("size").is_none() {
         return; // already reported
     }
@@ -159,12 +164,12 @@ fn check_size(cx: &mut Context, p: &Props, node: &Node, shape: &Shape, size: Vec
 }
 
 /// Whether a mesh or height field determines the form of a geom.
-fn form_is_of_asset(p: &Props, shape: &Shape) -> bool {
+fn form_is_of_asset(p: &Props, shape: &GeomTypeProperties) -> bool {
     matches!(shape.kind, geom::MESH | geom::HFIELD) || p.text("mesh").or(p.text("hfield")).is_some()
 }
 
 /// Checks that the sizes of a shape that replaces a mesh are positive.
-fn check_fit(cx: &mut Context, p: &Props, node: &Node, shape: &Shape, size: Vec3) {
+fn check_fit(cx: &mut Context, p: &Props, node: &ElementNode, shape: &GeomTypeProperties, size: Vec3) {
     if let Some((rule, _)) = shape.sizes.iter().zip(size).find(|&(_, x)| x <= 0.0) {
         let message =
             format!("{} replaces its mesh with a {} of zero or negative size", node.describe(), rule.name);
@@ -176,7 +181,13 @@ fn check_fit(cx: &mut Context, p: &Props, node: &Node, shape: &Shape, size: Vec3
 }
 
 /// Mass and principal moments: from `mass`, else from `density`.
-fn mass(cx: &mut Context, p: &Props, node: &Node, shape: &Shape, form: &Form) -> (f64, Vec3) {
+fn mass(
+    cx: &mut Context,
+    p: &Props,
+    node: &ElementNode,
+    shape: &GeomTypeProperties,
+    form: &GeomForm,
+) -> (f64, Vec3) {
     let owner = node.describe();
     let density = checked(p, "density", &owner, |x| x >= 0.0, "zero or more", cx.report).unwrap_or(1000.0);
     let given = checked(p, "mass", &owner, |x| x >= 0.0, "zero or more", cx.report);
@@ -193,7 +204,7 @@ fn mass(cx: &mut Context, p: &Props, node: &Node, shape: &Shape, form: &Form) ->
 }
 
 /// The dimension of the contacts of the geom.
-fn condim(cx: &mut Context, p: &Props, node: &Node) -> i32 {
+fn condim(cx: &mut Context, p: &Props, node: &ElementNode) -> i32 {
     let condim = p.int("condim").unwrap_or(3);
     let span = p.span("condim").unwrap_or(node.span.clone());
     if !matches!(condim, 1 | 3 | 4 | 6) {

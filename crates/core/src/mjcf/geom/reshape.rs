@@ -13,9 +13,9 @@ use crate::mjcf::body::frame::Pose;
 use crate::mjcf::body::inertia::combined;
 use crate::mjcf::expand::AttachedModel;
 use crate::mjcf::expand::references::{Names, kind_of};
-use crate::mjcf::settings::Compiler;
+use crate::mjcf::settings::CompilerSettings;
 use crate::mjcf::spec::{BodySpec, GeomSpec, Inertia};
-use crate::mjcf::text::tree::{Node, Tree};
+use crate::mjcf::text::tree::{ElementNode, ElementTree};
 use crate::mjcf::text::values::Value;
 use crate::model::Model;
 
@@ -23,7 +23,7 @@ use crate::model::Model;
 pub(crate) fn apply(
     bodies: &mut Vec<BodySpec>,
     inertias: &mut Vec<Inertia>,
-    tree: &Tree,
+    tree: &ElementTree,
     parts: &[AttachedModel],
 ) {
     let Some(AttachedModel { compiler, .. }) = parts.first() else { return };
@@ -81,7 +81,7 @@ fn move_members(body: &mut BodySpec, pose: Pose) {
 ///
 /// MuJoCo resolves every reference again for each body, with the original indexes of the bodies. If an index is beyond the end of
 /// the shortened list, no named body is removed before the referenced one is reached.
-fn fuse_static(bodies: &mut Vec<BodySpec>, inertias: &mut Vec<Inertia>, tree: &Tree) {
+fn fuse_static(bodies: &mut Vec<BodySpec>, inertias: &mut Vec<Inertia>, tree: &ElementTree) {
     let named = references(tree);
     let sensed = sites_of_force_sensors(tree);
     let meant = |body: &BodySpec| !body.name.is_empty() && named.contains(&("body", body.name.clone()));
@@ -140,27 +140,27 @@ fn fuse_static(bodies: &mut Vec<BodySpec>, inertias: &mut Vec<Inertia>, tree: &T
 }
 
 /// All objects that elements refer to.
-fn references(tree: &Tree) -> Names {
-    let of = |node: &Node| {
+fn references(tree: &ElementTree) -> Names {
+    let files_of = |node: &ElementNode| {
         let names = node.attributes.iter().filter_map(|a| match (kind_of(node, a), &a.value) {
             (Some(kind), Value::Text(name)) => Some((kind, name.clone())),
             _ => None,
         });
         listed(names)
     };
-    filled(tree.nodes.iter().flat_map(of))
+    filled(tree.nodes.iter().flat_map(files_of))
 }
 
 /// The sites at which forces between bodies are measured. Their bodies must not be merged, because the force acts between body
 /// and parent.
-fn sites_of_force_sensors(tree: &Tree) -> BTreeSet<&str> {
+fn sites_of_force_sensors(tree: &ElementTree) -> BTreeSet<&str> {
     let sensors = tree.sections("sensor").flat_map(|(section, _)| tree.children(section));
     let of_force = sensors.filter(|(_, n)| matches!(n.element.name, "force" | "torque"));
     filled(of_force.filter_map(|(_, n)| n.text("site")))
 }
 
 /// Scales masses and inertias so that the total mass is `settotalmass`, if that is positive.
-pub(crate) fn total_mass(m: &mut Model, compiler: &Compiler) {
+pub(crate) fn total_mass(m: &mut Model, compiler: &CompilerSettings) {
     if compiler.settotalmass <= 0.0 {
         return;
     }

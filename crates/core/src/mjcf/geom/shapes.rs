@@ -10,7 +10,7 @@ use crate::math::{MINVAL, Vec3, norm};
 
 /// An element of the `size` of a shape.
 #[derive(Debug)]
-pub(crate) struct Size {
+pub(crate) struct SizeElement {
     /// Its description in messages.
     pub(crate) name: &'static str,
     /// Whether zero is valid.
@@ -19,13 +19,13 @@ pub(crate) struct Size {
 
 /// The properties of a geom type.
 #[derive(Debug)]
-pub(crate) struct Shape {
+pub(crate) struct GeomTypeProperties {
     /// MuJoCo's number (mjtGeom).
     pub(crate) kind: i32,
     /// Its keyword.
     pub(crate) name: &'static str,
     /// The elements of `size` that it requires.
-    pub(crate) sizes: &'static [Size],
+    pub(crate) sizes: &'static [SizeElement],
     /// An example for `size`.
     pub(crate) example: &'static str,
     /// Whether it is allowed only in bodies that cannot move.
@@ -46,16 +46,16 @@ pub(crate) struct Shape {
     pub(crate) rbound: fn(Vec3) -> f64,
 }
 
-const RADIUS: Size = Size { name: "radius", zero: false };
-const HALF_LENGTH: Size = Size { name: "half length", zero: false };
+const RADIUS: SizeElement = SizeElement { name: "radius", zero: false };
+const HALF_LENGTH: SizeElement = SizeElement { name: "half length", zero: false };
 
-const CUBOID: Shape = Shape {
+const CUBOID: GeomTypeProperties = GeomTypeProperties {
     kind: geom::BOX,
     name: "box",
     sizes: &[
-        Size { name: "half length in x", zero: false },
-        Size { name: "half length in y", zero: false },
-        Size { name: "half length in z", zero: false },
+        SizeElement { name: "half length in x", zero: false },
+        SizeElement { name: "half length in y", zero: false },
+        SizeElement { name: "half length in z", zero: false },
     ],
     example: "0.1 0.2 0.3",
     only_static: false,
@@ -77,14 +77,14 @@ const CUBOID: Shape = Shape {
     rbound: norm,
 };
 
-const SHAPES: &[Shape] = &[
-    Shape {
+const SHAPES: &[GeomTypeProperties] = &[
+    GeomTypeProperties {
         kind: geom::PLANE,
         name: "plane",
         sizes: &[
-            Size { name: "half length in x", zero: true },
-            Size { name: "half length in y", zero: true },
-            Size { name: "spacing of the drawn grid", zero: false },
+            SizeElement { name: "half length in x", zero: true },
+            SizeElement { name: "half length in y", zero: true },
+            SizeElement { name: "spacing of the drawn grid", zero: false },
         ],
         example: "1 1 0.1",
         only_static: true,
@@ -97,8 +97,8 @@ const SHAPES: &[Shape] = &[
         rbound: |_| 0.0,
     },
     // Its sizes are those of a box of about the same volume. Its bounds are computed from the height field.
-    Shape { kind: geom::HFIELD, name: "height field", sizes: &[], length: None, ..CUBOID },
-    Shape {
+    GeomTypeProperties { kind: geom::HFIELD, name: "height field", sizes: &[], length: None, ..CUBOID },
+    GeomTypeProperties {
         kind: geom::SPHERE,
         name: "sphere",
         sizes: &[RADIUS],
@@ -112,7 +112,7 @@ const SHAPES: &[Shape] = &[
         half: |[r, ..]| [r; 3],
         rbound: |[r, ..]| r,
     },
-    Shape {
+    GeomTypeProperties {
         kind: geom::CAPSULE,
         name: "capsule",
         sizes: &[RADIUS, HALF_LENGTH],
@@ -141,13 +141,13 @@ const SHAPES: &[Shape] = &[
         half: |[r, h, _]| [r, r, h + r],
         rbound: |[r, h, _]| r + h,
     },
-    Shape {
+    GeomTypeProperties {
         kind: geom::ELLIPSOID,
         name: "ellipsoid",
         sizes: &[
-            Size { name: "half axis in x", zero: false },
-            Size { name: "half axis in y", zero: false },
-            Size { name: "half axis in z", zero: false },
+            SizeElement { name: "half axis in x", zero: false },
+            SizeElement { name: "half axis in y", zero: false },
+            SizeElement { name: "half axis in z", zero: false },
         ],
         example: "0.1 0.2 0.3",
         only_static: false,
@@ -159,7 +159,7 @@ const SHAPES: &[Shape] = &[
         half: |size| size,
         rbound: |[a, b, c]| a.max(b).max(c),
     },
-    Shape {
+    GeomTypeProperties {
         kind: geom::CYLINDER,
         name: "cylinder",
         sizes: &[RADIUS, HALF_LENGTH],
@@ -183,11 +183,11 @@ const SHAPES: &[Shape] = &[
     },
     CUBOID,
     // The other properties are those of the individual mesh.
-    Shape { kind: geom::MESH, name: "mesh", sizes: &[], length: None, ..CUBOID },
+    GeomTypeProperties { kind: geom::MESH, name: "mesh", sizes: &[], length: None, ..CUBOID },
 ];
 
 /// The shape of a geom type, or `None` if the schema refuses the type.
-pub(crate) fn for_kind(kind: i32) -> Option<&'static Shape> {
+pub(crate) fn for_kind(kind: i32) -> Option<&'static GeomTypeProperties> {
     SHAPES.iter().find(|s| s.kind == kind)
 }
 

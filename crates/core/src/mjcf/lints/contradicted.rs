@@ -5,7 +5,7 @@ use crate::kinds::joint;
 use crate::mjcf::gather::listed;
 use crate::mjcf::rules;
 use crate::mjcf::text::diagnostic::Diagnostics;
-use crate::mjcf::text::tree::{Attribute, Node, Tree};
+use crate::mjcf::text::tree::{Attribute, ElementNode, ElementTree};
 use crate::mjcf::text::values::Value;
 use crate::model::{Model, Obj};
 
@@ -20,18 +20,18 @@ const PAIRS: [(&str, &str); 4] = [
 const LIMIT_TOLERANCE: f64 = 0.01;
 const SERVOS: [&str; 2] = ["position", "intvelocity"];
 
-pub(super) fn check_ranges(tree: &Tree, m: &Model, report: &mut Diagnostics) {
+pub(super) fn check_ranges(tree: &ElementTree, m: &Model, report: &mut Diagnostics) {
     switched_off(tree, report);
     keys(tree, m, report);
     servos(tree, m, report);
 }
 
-fn attribute<'n>(node: &'n Node, name: &str) -> Option<&'n Attribute> {
+fn attribute<'n>(node: &'n ElementNode, name: &str) -> Option<&'n Attribute> {
     node.attributes.iter().find(|a| a.attr.name == name)
 }
 
 /// Reports a range in an element whose flag is `false`.
-fn switched_off(tree: &Tree, report: &mut Diagnostics) {
+fn switched_off(tree: &ElementTree, report: &mut Diagnostics) {
     for node in &tree.nodes {
         for (range, flag) in PAIRS {
             let (Some(range), Some(flag)) = (attribute(node, range), attribute(node, flag)) else { continue };
@@ -49,8 +49,8 @@ fn switched_off(tree: &Tree, report: &mut Diagnostics) {
 }
 
 /// Reports keyframes that start beyond a limit.
-fn keys(tree: &Tree, m: &Model, report: &mut Diagnostics) {
-    let nodes: Vec<&Node> =
+fn keys(tree: &ElementTree, m: &Model, report: &mut Diagnostics) {
+    let nodes: Vec<&ElementNode> =
         listed(tree.sections("keyframe").flat_map(|(i, _)| tree.children(i).map(|(_, n)| n)));
     for (k, node) in nodes.iter().enumerate().take(m.nkey) {
         // Coordinates that are not written are those of the default configuration.
@@ -85,8 +85,8 @@ fn keys(tree: &Tree, m: &Model, report: &mut Diagnostics) {
 }
 
 /// Reports position servos that have neither a range of targets nor a range of forces.
-fn servos(tree: &Tree, m: &Model, report: &mut Diagnostics) {
-    let nodes: Vec<&Node> =
+fn servos(tree: &ElementTree, m: &Model, report: &mut Diagnostics) {
+    let nodes: Vec<&ElementNode> =
         listed(tree.sections("actuator").flat_map(|(i, _)| tree.children(i).map(|(_, n)| n)));
     if nodes.len() != m.nactuator || m.nu != m.nactuator {
         return;

@@ -10,12 +10,12 @@ mod unused_names;
 mod weights;
 
 use super::text::diagnostic::Diagnostics;
-use super::text::tree::{Node, Tree};
+use super::text::tree::{ElementNode, ElementTree};
 use crate::model::Model;
 use std::ops::Range;
 
 /// Reports doubtful constructs of a model.
-pub(super) fn check_model(tree: &Tree, m: &Model, report: &mut Diagnostics) {
+pub(super) fn check_model(tree: &ElementTree, m: &Model, report: &mut Diagnostics) {
     unused_names::check_names(tree, report);
     contradicted::check_ranges(tree, m, report);
     too_fast::check_time_constants(tree, m, report);
@@ -24,14 +24,14 @@ pub(super) fn check_model(tree: &Tree, m: &Model, report: &mut Diagnostics) {
 }
 
 /// The span of the element with this name, of one of these kinds. If the name is empty or not found, the span of the root.
-fn element_span(tree: &Tree, kinds: &[&str], name: &str) -> Range<usize> {
-    let named = |n: &&Node| kinds.contains(&n.element.name) && own_name(n) == Some(name);
+fn element_span(tree: &ElementTree, kinds: &[&str], name: &str) -> Range<usize> {
+    let named = |n: &&ElementNode| kinds.contains(&n.element.name) && own_name(n) == Some(name);
     let found = tree.nodes.iter().find(named).filter(|_| !name.is_empty());
     found.or(tree.nodes.first()).map_or(0..0, |n| n.span.clone())
 }
 
 /// The name of an element, if it has one.
-fn own_name(node: &Node) -> Option<&str> {
+fn own_name(node: &ElementNode) -> Option<&str> {
     let given = node.attributes.iter().find(|a| a.attr.name == "name")?;
     match &given.value {
         super::text::values::Value::Text(name) => Some(name),

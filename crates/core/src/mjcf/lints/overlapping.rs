@@ -3,7 +3,7 @@
 use super::{digits, element_span, format_name};
 use crate::mjcf::rules;
 use crate::mjcf::text::diagnostic::Diagnostics;
-use crate::mjcf::text::tree::Tree;
+use crate::mjcf::text::tree::ElementTree;
 use crate::model::extents::half_thickness_of_pair;
 use crate::model::{Fields, Model, Obj};
 use crate::step::forward::position;
@@ -16,7 +16,7 @@ const MOST: usize = 500;
 /// The check of a model stops after this work, in units of the engine: about 50 ms.
 const WORK: u64 = 50_000_000;
 
-pub(super) fn check_overlaps(tree: &Tree, m: &Model, report: &mut Diagnostics) {
+pub(super) fn check_overlaps(tree: &ElementTree, m: &Model, report: &mut Diagnostics) {
     let Some(d) = data_after_position_stages(m) else { return };
     let depth = |pair: [usize; 2], dist: f64| {
         (-dist > MIN_REPORTED_DEPTH * half_thickness_of_pair(m, pair)).then_some(-dist)

@@ -9,7 +9,7 @@ use super::{digits, element_span, format_name};
 use crate::kinds::{biastype, disable, integrator, joint, trntype};
 use crate::mjcf::rules;
 use crate::mjcf::text::diagnostic::Diagnostics;
-use crate::mjcf::text::tree::Tree;
+use crate::mjcf::text::tree::ElementTree;
 use crate::mjcf::text::values::Value;
 use crate::model::{Model, Obj};
 
@@ -18,7 +18,7 @@ const RUNGE_KUTTA: f64 = 2.78;
 /// Attributes that contain a time constant of a constraint or a contact.
 const TIMES: [&str; 5] = ["solref", "solreflimit", "solreffix", "solreffriction", "solreflimitspring"];
 
-pub(super) fn check_time_constants(tree: &Tree, m: &Model, report: &mut Diagnostics) {
+pub(super) fn check_time_constants(tree: &ElementTree, m: &Model, report: &mut Diagnostics) {
     joints(tree, m, report);
     constraints(tree, m, report);
 }
@@ -62,7 +62,7 @@ fn acting(m: &Model, j: usize) -> Option<ActingElements> {
 }
 
 /// Reports joints with a spring, a damper or a servo that is unstable at this timestep.
-fn joints(tree: &Tree, m: &Model, report: &mut Diagnostics) {
+fn joints(tree: &ElementTree, m: &Model, report: &mut Diagnostics) {
     let h = m.opt.timestep;
     let supported = [integrator::EULER, integrator::RK4, integrator::IMPLICIT, integrator::IMPLICITFAST];
     if !supported.contains(&m.opt.integrator) || h.is_nan() || h <= 0.0 {
@@ -110,7 +110,7 @@ fn joints(tree: &Tree, m: &Model, report: &mut Diagnostics) {
 }
 
 /// Reports constraints whose requested time constant is below two timesteps.
-fn constraints(tree: &Tree, m: &Model, report: &mut Diagnostics) {
+fn constraints(tree: &ElementTree, m: &Model, report: &mut Diagnostics) {
     let least = 2.0 * m.opt.timestep;
     if m.opt.disabled(disable::REFSAFE) || m.opt.integrator == integrator::DISCRETE {
         return;

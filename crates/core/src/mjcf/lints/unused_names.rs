@@ -1,9 +1,9 @@
 //! Default classes and assets that are never referenced.
 
 use crate::mjcf::rules;
-use crate::mjcf::schema::Kind;
+use crate::mjcf::schema::AttributeType;
 use crate::mjcf::text::diagnostic::{Diagnostics, shorten_name};
-use crate::mjcf::text::tree::{Node, Tree};
+use crate::mjcf::text::tree::{ElementNode, ElementTree};
 use crate::mjcf::text::values::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -12,7 +12,7 @@ const CLASS: &str = "default class";
 /// Assets that have an effect only if they are referenced.
 const ASSETS: [&str; 4] = ["mesh", "material", "texture", "hfield"];
 
-pub(super) fn check_names(tree: &Tree, report: &mut Diagnostics) {
+pub(super) fn check_names(tree: &ElementTree, report: &mut Diagnostics) {
     // A file that contains only classes and assets is meant for inclusion.
     if !tree.nodes.iter().any(|n| n.element.name == "geom" && n.parent.is_some_and(|p| holds_bodies(tree, p)))
     {
@@ -23,8 +23,8 @@ pub(super) fn check_names(tree: &Tree, report: &mut Diagnostics) {
         for a in &node.attributes {
             let Value::Text(name) = &a.value else { continue };
             match a.attr.kind {
-                Kind::Ref(kind) => drop(used.insert((kind, name))),
-                Kind::Class if node.element.name != "default" => drop(used.insert((CLASS, name))),
+                AttributeType::Ref(kind) => drop(used.insert((kind, name))),
+                AttributeType::Class if node.element.name != "default" => drop(used.insert((CLASS, name))),
                 _ => {}
             }
         }
@@ -33,7 +33,7 @@ pub(super) fn check_names(tree: &Tree, report: &mut Diagnostics) {
     // A nested class is used if one of the classes inside it is used.
     for (i, node) in tree.nodes.iter().enumerate().filter(|(_, n)| n.element.name == "default") {
         let nested = node.parent.and_then(|p| tree.nodes.get(p)).is_some_and(|p| p.element.name == "default");
-        let class = node.attributes.iter().find(|a| matches!(a.attr.kind, Kind::Class));
+        let class = node.attributes.iter().find(|a| matches!(a.attr.kind, AttributeType::Class));
         let (true, Some(class), true) = (nested, class, node.model == 0) else { continue };
         let Value::Text(name) = &class.value else { continue };
         let is_used = |name: &str| used.contains(&(CLASS, name));
@@ -43,7 +43,7 @@ pub(super) fn check_names(tree: &Tree, report: &mut Diagnostics) {
     }
     for node in tree.nodes.iter().filter(|n| n.model == 0 && !is_sky(n)) {
         for a in &node.attributes {
-            let (Kind::Name(kind), Value::Text(name)) = (a.attr.kind, &a.value) else { continue };
+            let (AttributeType::Name(kind), Value::Text(name)) = (a.attr.kind, &a.value) else { continue };
             if ASSETS.contains(&kind) && !name.is_empty() && !used.contains(&(kind, name.as_str())) {
                 unused.entry(kind).or_default().push((name, a.span.clone()));
             }
@@ -67,8 +67,8 @@ pub(super) fn check_names(tree: &Tree, report: &mut Diagnostics) {
 }
 
 /// The names of the classes within a class.
-fn below(tree: &Tree, of: usize) -> Vec<&str> {
-    let (mut names, mut open) = (Vec::new(), vec![of]);
+fn below(tree: &ElementTree, root: usize) -> Vec<&str> {
+    let (mut names, mut open) = (Vec::new(), vec![root]);
     while let Some(at) = open.pop() {
         for (i, node) in tree.children(at).filter(|(_, n)| n.element.name == "default") {
             open.push(i);
@@ -81,12 +81,12 @@ fn below(tree: &Tree, of: usize) -> Vec<&str> {
     names
 }
 
-fn holds_bodies(tree: &Tree, at: usize) -> bool {
+fn holds_bodies(tree: &ElementTree, at: usize) -> bool {
     tree.nodes.get(at).is_some_and(|n| n.element.name != "default")
 }
 
 /// A sky texture is visible without a reference.
-fn is_sky(node: &Node) -> bool {
+fn is_sky(node: &ElementNode) -> bool {
     node.element.name == "texture"
         && node.attributes.iter().any(|a| a.attr.name == "type" && matches!(&a.value, Value::Keyword(2)))
 }

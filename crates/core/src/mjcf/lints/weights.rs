@@ -4,7 +4,7 @@ use super::{digits, element_span, format_name};
 use crate::kinds::joint;
 use crate::mjcf::rules;
 use crate::mjcf::text::diagnostic::Diagnostics;
-use crate::mjcf::text::tree::Tree;
+use crate::mjcf::text::tree::ElementTree;
 use crate::model::{Model, Obj};
 
 /// The largest ratio of the masses of neighbours that is not reported.
@@ -12,17 +12,16 @@ const MAX_MASS_RATIO: f64 = 1e4;
 /// The smallest inertia that is not reported, kg m².
 const TINY: f64 = 1e-9;
 
-pub(super) fn check_masses(tree: &Tree, m: &Model, report: &mut Diagnostics) {
+pub(super) fn check_masses(tree: &ElementTree, m: &Model, report: &mut Diagnostics) {
     let body = |b: usize| m.names.of_kind(Obj::Body).get(b).map_or("", String::as_str);
     for b in 1..m.nbody {
         let parent = m.body_parentid.get(b).and_then(|p| usize::try_from(*p).ok()).unwrap_or(0);
         let moves = |b: usize| m.body_weldid.get(b).is_some_and(|w| *w != 0);
-        let apart_from = |b: usize| m.body_dofnum.get(b).is_some_and(|n| *n > 0);
+        let has_dofs = |b: usize| m.body_dofnum.get(b).is_some_and(|n| *n > 0);
         let mass = |b: usize| m.body_mass.get(b).copied().unwrap_or(0.0);
         let [child, base] = [mass(b), mass(parent)];
         let ratio = child.max(base) / child.min(base);
-        if parent > 0 && moves(parent) && apart_from(b) && child > 0.0 && base > 0.0 && ratio > MAX_MASS_RATIO
-        {
+        if parent > 0 && moves(parent) && has_dofs(b) && child > 0.0 && base > 0.0 && ratio > MAX_MASS_RATIO {
             let message = format!(
                 "{} has {} kg, but its neighbour {} has {} kg",
                 format_name("body", body(b), b),

@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// An equality constraint does not say what it connects.
+/// An equality constraint does not name the objects that it connects.
 pub const EQUALITY: &Rule = &Rule {
     code: "mjcf-equality",
     severity: Severity::Error,

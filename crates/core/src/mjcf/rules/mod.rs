@@ -1,7 +1,7 @@
-//! Every rule of models, each on a page of its own: what is wrong, why it matters, a wrong and a right model. The passes of the
-//! compiler say where one is broken.
+//! Lint rules for models. Each rule has its own file: what is wrong, why it matters, a wrong and a right model. The passes of the
+//! compiler report violations.
 
 pub use labspec_finding::Rule;
 
-// Every file of this folder, by the build script.
+// The build script lists the files of this folder.
 include!(concat!(env!("OUT_DIR"), "/rules.rs"));

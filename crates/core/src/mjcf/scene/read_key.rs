@@ -6,11 +6,11 @@ use crate::mjcf::gather::listed;
 use crate::mjcf::rules;
 use crate::mjcf::spec::KeySpec;
 use crate::mjcf::text::diagnostic::Diagnostics;
-use crate::mjcf::text::tree::{Node, Tree, name};
+use crate::mjcf::text::tree::{ElementNode, ElementTree, name};
 
 /// All keyframes in the order of the text, at least `min` of them.
-pub(crate) fn keys(tree: &Tree, sizes: &Sizes, min: usize, report: &mut Diagnostics) -> Vec<KeySpec> {
-    let given: Vec<&Node> = listed(
+pub(crate) fn keys(tree: &ElementTree, sizes: &Sizes, min: usize, report: &mut Diagnostics) -> Vec<KeySpec> {
+    let given: Vec<&ElementNode> = listed(
         tree.sections("keyframe").flat_map(|(section, _)| tree.children(section)).map(|(_, node)| node),
     );
     let numbers = 1 + sizes.nq + sizes.nv + sizes.na + sizes.nu + 7 * sizes.nmocap;
@@ -44,7 +44,7 @@ enum Padding {
     Needed,
 }
 
-fn key(node: &Node, sizes: &Sizes, report: &mut Diagnostics) -> KeySpec {
+fn key(node: &ElementNode, sizes: &Sizes, report: &mut Diagnostics) -> KeySpec {
     let p = Props::written_props(node);
     let mut list = |name: &str, n: usize, rest: Padding, what: String| {
         let mut given = p.list(name).filter(|list| !list.is_empty())?.to_vec();

@@ -10,15 +10,15 @@ use crate::mjcf::geom::{read_form, shapes};
 use crate::mjcf::ids::{Ids, References};
 use crate::mjcf::names::NameTable;
 use crate::mjcf::rules;
-use crate::mjcf::spec::{CameraSpec, LightSpec, List, MaterialSpec, NumericSpec, SiteSpec, TupleSpec};
-use crate::mjcf::text::tree::{Node, Tree, name};
+use crate::mjcf::spec::{CameraSpec, LightSpec, MaterialSpec, NumberList, NumericSpec, SiteSpec, TupleSpec};
+use crate::mjcf::text::tree::{ElementNode, ElementTree, name};
 use crate::model::Obj;
 
 /// The largest number of elements of a custom list, as in MuJoCo.
 const MAX_NUMBERS: i32 = 500;
 
 /// A site: a marked frame, with a volume for sensors that test whether a point is inside.
-pub(crate) fn site(cx: &mut Context, i: usize, node: &Node, childclass: Option<usize>) -> SiteSpec {
+pub(crate) fn site(cx: &mut Context, i: usize, node: &ElementNode, childclass: Option<usize>) -> SiteSpec {
     let p = cx.classes.props(node, childclass);
     let kind = p.keyword("type").unwrap_or(geom::SPHERE);
     let mut size = p.reals("size", [0.005; 3]);
@@ -56,12 +56,12 @@ pub(crate) fn site(cx: &mut Context, i: usize, node: &Node, childclass: Option<u
         material: p.text("material").map(str::to_string),
         group: p.int("group").unwrap_or(0),
         rgba: p.reals("rgba", [0.5, 0.5, 0.5, 1.0]),
-        user: List::read(&p, "user"),
+        user: NumberList::read(&p, "user"),
     }
 }
 
 /// Checks that a site that names a mesh has the type mesh.
-fn check_mesh(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> bool {
+fn check_mesh(cx: &mut Context, p: &Props, node: &ElementNode, kind: i32) -> bool {
     if kind == geom::MESH {
         return read_form::check_form(cx, p, node, kind);
     }
@@ -74,7 +74,7 @@ fn check_mesh(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> bool {
 
 /// A camera. Its lens is given by the field of view, or by the size of the sensor and a focal length, in metres or in
 /// pixels.
-pub(crate) fn camera(cx: &mut Context, node: &Node, childclass: Option<usize>) -> CameraSpec {
+pub(crate) fn camera(cx: &mut Context, node: &ElementNode, childclass: Option<usize>) -> CameraSpec {
     let p = cx.classes.props(node, childclass);
     let resolution = match p.ints("resolution") {
         Some(&[w, h]) => [w, h],
@@ -120,12 +120,12 @@ pub(crate) fn camera(cx: &mut Context, node: &Node, childclass: Option<usize>) -
         output: output(cx, &p, node),
         sensorsize,
         intrinsic: [fx, fy, px, py],
-        user: List::read(&p, "user"),
+        user: NumberList::read(&p, "user"),
     }
 }
 
 /// Reports a sensor without pixels, and a lens without a sensor.
-fn check_lens(cx: &mut Context, p: &Props, node: &Node, sensorsize: [f64; 2], resolution: [i32; 2]) {
+fn check_lens(cx: &mut Context, p: &Props, node: &ElementNode, sensorsize: [f64; 2], resolution: [i32; 2]) {
     if sensorsize[1] > 0.0 && resolution.iter().any(|&n| n <= 0) {
         let [w, h] = resolution;
         let message = format!("{} has a `sensorsize`, but its image has {w} by {h} pixels", node.describe());
@@ -149,7 +149,7 @@ fn check_lens(cx: &mut Context, p: &Props, node: &Node, sensorsize: [f64; 2], re
 }
 
 /// The images that a camera renders, as bits.
-fn output(cx: &mut Context, p: &Props, node: &Node) -> i32 {
+fn output(cx: &mut Context, p: &Props, node: &ElementNode) -> i32 {
     const IMAGES: [&str; 5] = ["rgb", "depth", "distance", "normal", "segmentation"];
     let Some(text) = p.text("output") else { return 1 };
     let mut bits = 0;
@@ -168,7 +168,7 @@ fn output(cx: &mut Context, p: &Props, node: &Node) -> i32 {
 }
 
 /// A light.
-pub(crate) fn light(cx: &mut Context, node: &Node, childclass: Option<usize>) -> LightSpec {
+pub(crate) fn light(cx: &mut Context, node: &ElementNode, childclass: Option<usize>) -> LightSpec {
     let p = cx.classes.props(node, childclass);
     let number = |name: &str, default: f64| p.real(name).unwrap_or(default);
     let directional = if p.flag("directional", false) { lighttype::DIRECTIONAL } else { lighttype::SPOT };
@@ -216,7 +216,7 @@ const RGB: usize = 1;
 pub(crate) fn materials(cx: &Context) -> Vec<MaterialSpec> {
     let tree = cx.tree;
     let nodes = tree.sections("asset").flat_map(|(at, _)| tree.children(at));
-    let read = |at: usize, node: &Node| {
+    let read = |at: usize, node: &ElementNode| {
         let p = cx.classes.props(node, None);
         let number = |name: &str, default: f64| p.real(name).unwrap_or(default);
         let mut textures: [Option<String>; ROLES] = Default::default();
@@ -280,7 +280,7 @@ pub(crate) fn numerics(cx: &mut Context) -> Vec<NumericSpec> {
 
 /// All custom texts: name and text.
 pub(crate) fn texts(
-    tree: &Tree,
+    tree: &ElementTree,
     report: &mut crate::mjcf::text::diagnostic::Diagnostics,
 ) -> Vec<(String, String)> {
     let nodes = tree.sections("custom").flat_map(|(at, _)| tree.children(at));
@@ -320,7 +320,13 @@ pub(crate) fn tuples(cx: &mut Context, refs: References) -> Vec<TupleSpec> {
 }
 
 /// The kind and the id of the object that an element of a tuple names.
-fn element_of(cx: &mut Context, ids: &Ids, names: &NameTable, p: &Props, node: &Node) -> Option<(i32, i32)> {
+fn element_of(
+    cx: &mut Context,
+    ids: &Ids,
+    names: &NameTable,
+    p: &Props,
+    node: &ElementNode,
+) -> Option<(i32, i32)> {
     const KINDS: [(&str, Obj); 10] = [
         ("body", Obj::Body),
         ("xbody", Obj::XBody),

@@ -2,10 +2,10 @@
 
 use super::AUTO;
 use super::Attr;
+use super::AttributeType;
 use super::Element;
 use super::FLAG;
 use super::INT;
-use super::Kind;
 use super::LIST;
 use super::REAL;
 use super::TEXT;
@@ -19,7 +19,7 @@ use crate::kinds::{biastype, dyntype, gaintype, interpolation};
 
 const COMMON: &[Attr] = attributes! {
     INT => group nsample;
-    Kind::Keywords(&[keyword("zoh", interpolation::HOLD), keyword("linear", interpolation::LINEAR), keyword("cubic", interpolation::CUBIC)]) => interp;
+    AttributeType::Keywords(&[keyword("zoh", interpolation::HOLD), keyword("linear", interpolation::LINEAR), keyword("cubic", interpolation::CUBIC)]) => interp;
     REAL => delay;
     LIST => user;
 };
@@ -63,10 +63,10 @@ const BIAS_TYPES: &[super::Keyword] = &[
 const GENERAL: &[Attr] = attributes! {
     INT => actdim;
     FLAG => actearly;
-    Kind::Keywords(DYNAMICS_TYPES) => dyntype;
+    AttributeType::Keywords(DYNAMICS_TYPES) => dyntype;
     upto(10) => dynprm;
 };
-const GAIN: &[Attr] = attributes! { Kind::Keywords(GAIN_TYPES) => gaintype; Kind::Keywords(BIAS_TYPES) => biastype; TEXT => input; upto(10) => gainprm biasprm; reals(2) => ffrange velrange; };
+const GAIN: &[Attr] = attributes! { AttributeType::Keywords(GAIN_TYPES) => gaintype; AttributeType::Keywords(BIAS_TYPES) => biastype; TEXT => input; upto(10) => gainprm biasprm; reals(2) => ffrange velrange; };
 const SERVO: &[Attr] = attributes! { REAL => kp kv dampratio; };
 const INHERIT: &[Attr] = attributes! { REAL => inheritrange; };
 const INPUT: &[Attr] = attributes! { TEXT => input; };
@@ -90,17 +90,18 @@ const MOTOR_DC: &[Attr] = attributes! {
 const TIMECONST: &[Attr] = attributes! { REAL => timeconst; };
 
 /// Attributes of an actuator that its entry in `default` does not have: its name and its targets.
-const NAMED: &[Attr] = attributes! { Kind::Name("actuator") => name; Kind::Class => class; };
+const NAMED: &[Attr] =
+    attributes! { AttributeType::Name("actuator") => name; AttributeType::Class => class; };
 const TRANSMISSION: &[Attr] = attributes! {
-    Kind::Ref("joint") => joint jointinparent;
-    Kind::Ref("tendon") => tendon;
-    Kind::Ref("site") => slidersite cranksite;
+    AttributeType::Ref("joint") => joint jointinparent;
+    AttributeType::Ref("tendon") => tendon;
+    AttributeType::Ref("site") => slidersite cranksite;
     reals(2) => lengthrange;
 };
-const SITE: &[Attr] = attributes! { Kind::Ref("site") => site; };
-const REFSITE: &[Attr] = attributes! { Kind::Ref("site") => refsite; };
-const BODY: &[Attr] = attributes! { Kind::Ref("body") => body; };
-const JOINT: &[Attr] = attributes! { Kind::Ref("joint") => joint; };
+const SITE: &[Attr] = attributes! { AttributeType::Ref("site") => site; };
+const REFSITE: &[Attr] = attributes! { AttributeType::Ref("site") => refsite; };
+const BODY: &[Attr] = attributes! { AttributeType::Ref("body") => body; };
+const JOINT: &[Attr] = attributes! { AttributeType::Ref("joint") => joint; };
 
 macro_rules! actuators {
     ($($id:ident $name:literal [$($group:ident),*] [$($place:expr),*];)*) => {

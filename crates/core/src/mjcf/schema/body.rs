@@ -1,8 +1,8 @@
 //! `worldbody` and the elements of bodies: joints, inertias, geoms, sites, cameras, lights.
 
 use super::{
-    AUTO, Attr, Element, FLAG, INT, Keyword, Kind, LIST, ORIENTATION, REAL, TEXT, attributes, extension,
-    flexible, keyword, reals, unsupported_keyword, upto,
+    AUTO, Attr, AttributeType, Element, FLAG, INT, Keyword, LIST, ORIENTATION, REAL, TEXT, attributes,
+    extension, flexible, keyword, reals, unsupported_keyword, upto,
 };
 use crate::kinds::{camlight, choice, geom, joint, lighttype, projection};
 
@@ -27,7 +27,7 @@ const SITE_SHAPES: &[Keyword] = &[
 ];
 
 const POS: &[Attr] = attributes! { reals(3) => pos; };
-const CLASS: &[Attr] = attributes! { Kind::Class => class; };
+const CLASS: &[Attr] = attributes! { AttributeType::Class => class; };
 
 static BODY_CHILDREN: [&Element; 15] = [
     &BODY,
@@ -65,14 +65,14 @@ pub(super) static WORLDBODY: Element = Element::new("worldbody", &[]).children(&
 pub(crate) static BODY: Element = Element::new(
     "body",
     &[
-        attributes! { Kind::Name("body") => name; Kind::Class => childclass; },
+        attributes! { AttributeType::Name("body") => name; AttributeType::Class => childclass; },
         POS,
         ORIENTATION,
         attributes! {
             FLAG => mocap;
-            Kind::Keywords(&[keyword("auto", choice::TRUE), keyword("false", choice::FALSE)]) => simple;
+            AttributeType::Keywords(&[keyword("auto", choice::TRUE), keyword("false", choice::FALSE)]) => simple;
             REAL => gravcomp;
-            Kind::Keywords(&[keyword("auto", 0), keyword("never", 1), keyword("allowed", 2), keyword("init", 3)]) => sleep;
+            AttributeType::Keywords(&[keyword("auto", 0), keyword("never", 1), keyword("allowed", 2), keyword("init", 3)]) => sleep;
             LIST => user;
         },
     ],
@@ -81,7 +81,11 @@ pub(crate) static BODY: Element = Element::new(
 
 pub(crate) static FRAME: Element = Element::new(
     "frame",
-    &[attributes! { Kind::Name("frame") => name; Kind::Class => childclass; }, POS, ORIENTATION],
+    &[
+        attributes! { AttributeType::Name("frame") => name; AttributeType::Class => childclass; },
+        POS,
+        ORIENTATION,
+    ],
 )
 .children(&BODY_CHILDREN);
 
@@ -91,7 +95,7 @@ static REPLICATE: Element = Element::new(
         INT => count;
         TEXT => sep;
         reals(3) => offset euler;
-        Kind::Class => childclass;
+        AttributeType::Class => childclass;
     }],
 )
 .children(&BODY_CHILDREN);
@@ -114,7 +118,7 @@ static INERTIAL: Element = Element::new(
 
 /// A joint, without its name and class.
 pub(super) const JOINT_ATTRS: &[Attr] = attributes! {
-    Kind::Keywords(&[
+    AttributeType::Keywords(&[
         keyword("free", joint::FREE), keyword("ball", joint::BALL), keyword("slide", joint::SLIDE),
         keyword("hinge", joint::HINGE),
     ]) => type;
@@ -135,19 +139,19 @@ pub(super) const JOINT_ATTRS: &[Attr] = attributes! {
     LIST => user;
 };
 static JOINT: Element =
-    Element::new("joint", &[attributes! { Kind::Name("joint") => name; }, CLASS, JOINT_ATTRS]);
+    Element::new("joint", &[attributes! { AttributeType::Name("joint") => name; }, CLASS, JOINT_ATTRS]);
 static FREEJOINT: Element = Element::new(
     "freejoint",
     &[attributes! {
-        Kind::Name("joint") => name;
-        Kind::Keywords(&[keyword("false", choice::FALSE), keyword("true", choice::TRUE), keyword("auto", choice::AUTO)]) => align;
+        AttributeType::Name("joint") => name;
+        AttributeType::Keywords(&[keyword("false", choice::FALSE), keyword("true", choice::TRUE), keyword("auto", choice::AUTO)]) => align;
         INT => group;
     }],
 );
 
 /// A geom, without its name and class.
 pub(super) const GEOM_ATTRS: &[Attr] = attributes! {
-    Kind::Keywords(GEOM_SHAPES) => type;
+    AttributeType::Keywords(GEOM_SHAPES) => type;
     reals(3) => pos;
     reals(4) => quat axisangle;
     reals(3) => euler zaxis;
@@ -158,41 +162,41 @@ pub(super) const GEOM_ATTRS: &[Attr] = attributes! {
     upto(2) => solref;
     upto(5) => solimp;
     reals(4) => rgba;
-    Kind::Ref("material") => material;
+    AttributeType::Ref("material") => material;
     FLAG => shellinertia;
     REAL => adhesion;
     upto(6) => surfacevel;
     reals(6) => fromto;
-    Kind::Ref("mesh") => mesh;
-    Kind::Ref("hfield") => hfield;
+    AttributeType::Ref("mesh") => mesh;
+    AttributeType::Ref("hfield") => hfield;
     REAL => fitscale;
-    Kind::Keywords(&[keyword("none", 0), keyword("ellipsoid", geom::ELLIPSOID)]) => fluidshape;
+    AttributeType::Keywords(&[keyword("none", 0), keyword("ellipsoid", geom::ELLIPSOID)]) => fluidshape;
     upto(5) => fluidcoef;
     LIST => user;
 };
 static GEOM: Element =
-    Element::new("geom", &[attributes! { Kind::Name("geom") => name; }, CLASS, GEOM_ATTRS])
+    Element::new("geom", &[attributes! { AttributeType::Name("geom") => name; }, CLASS, GEOM_ATTRS])
         .children(&[&extension::PLUGIN]);
 
 /// A site, without its name and class.
 pub(super) const SITE_ATTRS: &[Attr] = attributes! {
-    Kind::Keywords(SITE_SHAPES) => type;
+    AttributeType::Keywords(SITE_SHAPES) => type;
     reals(3) => pos;
     reals(4) => quat axisangle;
     reals(3) => euler zaxis;
     reals(6) => xyaxes;
     upto(3) => size;
     reals(4) => rgba;
-    Kind::Ref("material") => material;
+    AttributeType::Ref("material") => material;
     INT => group;
     reals(6) => fromto;
-    Kind::Ref("mesh") => mesh;
+    AttributeType::Ref("mesh") => mesh;
     LIST => user;
 };
 static SITE: Element =
-    Element::new("site", &[attributes! { Kind::Name("site") => name; }, CLASS, SITE_ATTRS]);
+    Element::new("site", &[attributes! { AttributeType::Name("site") => name; }, CLASS, SITE_ATTRS]);
 
-const TRACKING: Kind = Kind::Keywords(&[
+const TRACKING: AttributeType = AttributeType::Keywords(&[
     keyword("fixed", camlight::FIXED),
     keyword("track", camlight::TRACK),
     keyword("trackcom", camlight::TRACKCOM),
@@ -206,16 +210,20 @@ pub(super) const CAMERA_ATTRS: &[Attr] = attributes! {
     reals(4) => quat axisangle;
     reals(6) => xyaxes;
     TRACKING => mode;
-    Kind::Keywords(&[keyword("perspective", projection::PERSPECTIVE), keyword("orthographic", projection::ORTHOGRAPHIC)]) => projection;
+    AttributeType::Keywords(&[keyword("perspective", projection::PERSPECTIVE), keyword("orthographic", projection::ORTHOGRAPHIC)]) => projection;
     REAL => fovy ipd;
-    Kind::Ints(2, 2) => resolution;
+    AttributeType::Ints(2, 2) => resolution;
     TEXT => output;
     reals(2) => focal focalpixel principal principalpixel sensorsize;
     LIST => user;
 };
 static CAMERA: Element = Element::new(
     "camera",
-    &[attributes! { Kind::Name("camera") => name; Kind::Ref("body") => target; }, CLASS, CAMERA_ATTRS],
+    &[
+        attributes! { AttributeType::Name("camera") => name; AttributeType::Ref("body") => target; },
+        CLASS,
+        CAMERA_ATTRS,
+    ],
 );
 
 /// A light, without its name, class, target and texture.
@@ -224,15 +232,15 @@ pub(super) const LIGHT_ATTRS: &[Attr] = attributes! {
     FLAG => active castshadow directional;
     REAL => bulbradius cutoff exponent intensity range softness;
     TRACKING => mode;
-    Kind::Keywords(&[keyword("spot", lighttype::SPOT), keyword("directional", lighttype::DIRECTIONAL), keyword("point", lighttype::POINT), keyword("image", lighttype::IMAGE)]) => type;
+    AttributeType::Keywords(&[keyword("spot", lighttype::SPOT), keyword("directional", lighttype::DIRECTIONAL), keyword("point", lighttype::POINT), keyword("image", lighttype::IMAGE)]) => type;
 };
 static LIGHT: Element = Element::new(
     "light",
     &[
         attributes! {
-            Kind::Name("light") => name;
-            Kind::Ref("body") => target;
-            Kind::Ref("texture") => texture;
+            AttributeType::Name("light") => name;
+            AttributeType::Ref("body") => target;
+            AttributeType::Ref("texture") => texture;
         },
         CLASS,
         LIGHT_ATTRS,

@@ -1,8 +1,8 @@
 //! `default`: the defaults of a class for each kind of element.
 
 use super::Attr;
+use super::AttributeType;
 use super::Element;
-use super::Kind;
 use super::actuators;
 use super::attributes;
 use super::body;
@@ -17,7 +17,7 @@ const fn entry(name: &'static str, attributes: &'static [&'static [Attr]]) -> El
 }
 
 pub(super) static DEFAULT: Element =
-    Element::new("default", &[attributes! { Kind::Class => class; }]).children(&DEFAULT_CHILDREN);
+    Element::new("default", &[attributes! { AttributeType::Class => class; }]).children(&DEFAULT_CHILDREN);
 
 static DEFAULT_CHILDREN: [&Element; 23] = {
     let [a, b, c, d, e, f, g, h, i, j, k, l] = actuators::DEFAULTS;

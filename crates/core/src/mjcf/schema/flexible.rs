@@ -3,11 +3,11 @@
 use super::APPEARANCE;
 use super::AUTO;
 use super::Attr;
+use super::AttributeType;
 use super::Element;
 use super::FLAG;
 use super::INT;
 use super::INTS;
-use super::Kind;
 use super::LIST;
 use super::REAL;
 use super::TEXT;
@@ -63,7 +63,7 @@ const FLEX_COMMON: &[Attr] = attributes! {
     TEXT => name dof;
     INT => dim group;
     REAL => radius;
-    Kind::Ref("material") => material;
+    AttributeType::Ref("material") => material;
     reals(4) => rgba;
     FLAG => flatskin;
     INTS => element cellcount;
@@ -126,7 +126,7 @@ static COMP_SKIN: Element = Element::new(
         RGBA,
         attributes! {
             FLAG => texcoord;
-            Kind::Ref("material") => material;
+            AttributeType::Ref("material") => material;
             INT => group subgrid;
             REAL => inflate;
         },
@@ -144,7 +144,7 @@ static COMP_GEOM: Element = Element::new(
             INT => contype conaffinity group priority;
             REAL => mass density solmix;
             upto(6) => surfacevel;
-            Kind::Ref("material") => material;
+            AttributeType::Ref("material") => material;
         },
     ],
 )
@@ -155,7 +155,7 @@ static COMP_SITE: Element = Element::new(
         upto(3) => size;
         INT => group;
         TEXT => mesh;
-        Kind::Ref("material") => material;
+        AttributeType::Ref("material") => material;
         reals(4) => rgba [APPEARANCE];
     }],
 )

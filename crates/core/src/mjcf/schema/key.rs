@@ -1,12 +1,12 @@
 //! `keyframe`.
 
-use super::{Element, Kind, LIST, REAL, attributes};
+use super::{AttributeType, Element, LIST, REAL, attributes};
 
 pub(super) static KEYFRAME: Element = Element::new("keyframe", &[]).children(&[&KEY]);
 static KEY: Element = Element::new(
     "key",
     &[attributes! {
-        Kind::Name("key") => name;
+        AttributeType::Name("key") => name;
         REAL => time;
         LIST => qpos qvel act ctrl mpos mquat;
     }],

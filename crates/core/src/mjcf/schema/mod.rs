@@ -44,7 +44,7 @@ pub struct Keyword {
 
 /// The type of an attribute's value.
 #[derive(Clone, Copy, Debug)]
-pub enum Kind {
+pub enum AttributeType {
     /// Between `min` and `max` real numbers.
     Reals(usize, usize),
     /// Between `min` and `max` integers.
@@ -61,14 +61,14 @@ pub enum Kind {
     Text,
 }
 
-impl Kind {
+impl AttributeType {
     /// Whether the value consists of numbers, at least one.
     pub(crate) fn counts(self) -> bool {
-        matches!(self, Kind::Reals(1.., _) | Kind::Ints(1.., _))
+        matches!(self, AttributeType::Reals(1.., _) | AttributeType::Ints(1.., _))
     }
 }
 
-impl Kind {
+impl AttributeType {
     /// The type in words, for documentation and messages.
     pub fn describe(self) -> String {
         let count = |min: usize, max: usize, noun: &str| match (min, max) {
@@ -78,16 +78,16 @@ impl Kind {
             (a, b) => format!("{a} to {b} {noun}s"),
         };
         match self {
-            Kind::Reals(min, max) => count(min, max, "number"),
-            Kind::Ints(min, max) => count(min, max, "integer"),
-            Kind::Keywords(words) => {
+            AttributeType::Reals(min, max) => count(min, max, "number"),
+            AttributeType::Ints(min, max) => count(min, max, "integer"),
+            AttributeType::Keywords(words) => {
                 let list: Vec<_> = listed(words.iter().map(|w| w.text));
                 format!("one of {}", list.join(", "))
             }
-            Kind::Name(_) => "a name".into(),
-            Kind::Ref(kind) => format!("the name of a {kind}"),
-            Kind::Class => "the name of a default class".into(),
-            Kind::Text => "text".into(),
+            AttributeType::Name(_) => "a name".into(),
+            AttributeType::Ref(kind) => format!("the name of a {kind}"),
+            AttributeType::Class => "the name of a default class".into(),
+            AttributeType::Text => "text".into(),
         }
     }
 }
@@ -98,7 +98,7 @@ pub struct Attr {
     /// Its name.
     pub name: &'static str,
     /// The type of its value.
-    pub kind: Kind,
+    pub kind: AttributeType,
     /// What the compiler does with it.
     pub status: Status,
 }
@@ -178,28 +178,29 @@ use crate::kinds::choice;
 use crate::mjcf::gather::listed;
 use attributes;
 
-const REAL: Kind = Kind::Reals(1, 1);
-const INT: Kind = Kind::Ints(1, 1);
-const TEXT: Kind = Kind::Text;
-const FLAG: Kind = Kind::Keywords(&[keyword("false", choice::FALSE), keyword("true", choice::TRUE)]);
-const AUTO: Kind = Kind::Keywords(&[
+const REAL: AttributeType = AttributeType::Reals(1, 1);
+const INT: AttributeType = AttributeType::Ints(1, 1);
+const TEXT: AttributeType = AttributeType::Text;
+const FLAG: AttributeType =
+    AttributeType::Keywords(&[keyword("false", choice::FALSE), keyword("true", choice::TRUE)]);
+const AUTO: AttributeType = AttributeType::Keywords(&[
     keyword("false", choice::FALSE),
     keyword("true", choice::TRUE),
     keyword("auto", choice::AUTO),
 ]);
 
 /// Exactly `n` numbers.
-const fn reals(n: usize) -> Kind {
-    Kind::Reals(n, n)
+const fn reals(n: usize) -> AttributeType {
+    AttributeType::Reals(n, n)
 }
 /// One to `n` numbers. Missing ones have their defaults.
-const fn upto(n: usize) -> Kind {
-    Kind::Reals(1, n)
+const fn upto(n: usize) -> AttributeType {
+    AttributeType::Reals(1, n)
 }
 /// As many numbers as the model requires.
-const LIST: Kind = Kind::Reals(0, usize::MAX);
+const LIST: AttributeType = AttributeType::Reals(0, usize::MAX);
 /// Any number of integers.
-const INTS: Kind = Kind::Ints(0, usize::MAX);
+const INTS: AttributeType = AttributeType::Ints(0, usize::MAX);
 
 const fn keyword(text: &'static str, value: i32) -> Keyword {
     Keyword { text, value, supported: true }

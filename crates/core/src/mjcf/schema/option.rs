@@ -1,10 +1,10 @@
 //! `compiler`, `option`, `size`, `statistic`.
 
+use super::AttributeType;
 use super::Element;
 use super::FLAG;
 use super::INT;
 use super::INTS;
-use super::Kind;
 use super::MOOT;
 use super::REAL;
 use super::Status::Ignored;
@@ -22,17 +22,17 @@ pub(super) static COMPILER: Element = Element::new(
     &[attributes! {
         FLAG => autolimits balanceinertia;
         REAL => boundmass boundinertia;
-        Kind::Keywords(&[keyword("radian", angle::RADIAN), keyword("degree", angle::DEGREE)]) => angle;
+        AttributeType::Keywords(&[keyword("radian", angle::RADIAN), keyword("degree", angle::DEGREE)]) => angle;
         TEXT => eulerseq;
-        Kind::Keywords(&[keyword("false", choice::FALSE), keyword("true", choice::TRUE), keyword("auto", choice::AUTO)]) => inertiafromgeom;
-        Kind::Ints(2, 2) => inertiagrouprange;
-        Kind::Keywords(&[keyword("local", 0), unsupported_keyword("global", 1)]) => coordinate [Only("local")];
+        AttributeType::Keywords(&[keyword("false", choice::FALSE), keyword("true", choice::TRUE), keyword("auto", choice::AUTO)]) => inertiafromgeom;
+        AttributeType::Ints(2, 2) => inertiagrouprange;
+        AttributeType::Keywords(&[keyword("local", 0), unsupported_keyword("global", 1)]) => coordinate [Only("local")];
         REAL => settotalmass;
         FLAG => alignfree discardvisual fusestatic fitaabb;
         TEXT => assetdir meshdir;
         TEXT => texturedir [super::APPEARANCE];
         FLAG => strippath;
-        Kind::Keywords(&[keyword("warning", 0), keyword("merge", 1), keyword("error", 2)]) => conflict [MOOT];
+        AttributeType::Keywords(&[keyword("warning", 0), keyword("merge", 1), keyword("error", 2)]) => conflict [MOOT];
         FLAG => saveinertial usethread [Ignored("for MuJoCo's own compiler and writer")];
     }],
 )
@@ -41,7 +41,7 @@ pub(super) static COMPILER: Element = Element::new(
 static LENGTHRANGE: Element = Element::new(
     "lengthrange",
     &[attributes! {
-        Kind::Keywords(&[keyword("none", 0), keyword("muscle", 1), keyword("muscleuser", 2), keyword("all", 3)]) => mode;
+        AttributeType::Keywords(&[keyword("none", 0), keyword("muscle", 1), keyword("muscleuser", 2), keyword("all", 3)]) => mode;
         FLAG => useexisting uselimit;
         REAL => accel maxforce timeconst timestep inttotal interval tolrange;
     }],
@@ -55,14 +55,14 @@ pub(super) static OPTION: Element = Element::new(
         reals(3) => gravity wind magnetic;
         upto(2) => o_solref;
         upto(5) => o_solimp o_friction;
-        Kind::Keywords(&[
+        AttributeType::Keywords(&[
             keyword("Euler", integrator::EULER), keyword("RK4", integrator::RK4), keyword("implicit", integrator::IMPLICIT),
             keyword("implicitfast", integrator::IMPLICITFAST), keyword("discrete", integrator::DISCRETE),
         ]) => integrator;
-        Kind::Keywords(&[keyword("pyramidal", cone::PYRAMIDAL), keyword("elliptic", cone::ELLIPTIC)]) => cone;
-        Kind::Keywords(&[keyword("PGS", solver::PGS), keyword("CG", solver::CG), keyword("Newton", solver::NEWTON)]) => solver;
+        AttributeType::Keywords(&[keyword("pyramidal", cone::PYRAMIDAL), keyword("elliptic", cone::ELLIPTIC)]) => cone;
+        AttributeType::Keywords(&[keyword("PGS", solver::PGS), keyword("CG", solver::CG), keyword("Newton", solver::NEWTON)]) => solver;
         INT => iterations ls_iterations;
-        Kind::Keywords(&[keyword("dense", jacobian::DENSE), keyword("sparse", jacobian::SPARSE), keyword("auto", jacobian::AUTO)]) => jacobian;
+        AttributeType::Keywords(&[keyword("dense", jacobian::DENSE), keyword("sparse", jacobian::SPARSE), keyword("auto", jacobian::AUTO)]) => jacobian;
         INT => noslip_iterations ccd_iterations;
         REAL => noslip_tolerance ccd_tolerance sleep_tolerance;
         INT => sdf_iterations sdf_initpoints;
@@ -71,7 +71,7 @@ pub(super) static OPTION: Element = Element::new(
 )
 .children(&[&FLAGS]);
 
-const SWITCH: Kind = Kind::Keywords(&[keyword("disable", 0), keyword("enable", 1)]);
+const SWITCH: AttributeType = AttributeType::Keywords(&[keyword("disable", 0), keyword("enable", 1)]);
 
 static FLAGS: Element = Element::new(
     "flag",

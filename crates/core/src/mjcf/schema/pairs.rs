@@ -1,9 +1,9 @@
 //! `contact`: pairs and exclusions.
 
 use super::Attr;
+use super::AttributeType;
 use super::Element;
 use super::INT;
-use super::Kind;
 use super::REAL;
 use super::attributes;
 use super::upto;
@@ -18,11 +18,11 @@ pub(super) static CONTACT: Element = Element::new("contact", &[]).children(&[&PA
 static PAIR: Element = Element::new(
     "pair",
     &[
-        attributes! { Kind::Name("pair") => name; Kind::Class => class; Kind::Ref("geom") => geom1 geom2; },
+        attributes! { AttributeType::Name("pair") => name; AttributeType::Class => class; AttributeType::Ref("geom") => geom1 geom2; },
         PAIR_ATTRS,
     ],
 );
 static EXCLUDE: Element = Element::new(
     "exclude",
-    &[attributes! { Kind::Name("exclude") => name; Kind::Ref("body") => body1 body2; }],
+    &[attributes! { AttributeType::Name("exclude") => name; AttributeType::Ref("body") => body1 body2; }],
 );

@@ -1,12 +1,12 @@
 //! `sensor`: one element for each kind in the table of sensors.
 
-use super::{Attr, Element, INT, Kind, LIST, REAL, TEXT, attributes, extension, keyword, upto};
+use super::{Attr, AttributeType, Element, INT, LIST, REAL, TEXT, attributes, extension, keyword, upto};
 use crate::kinds::interpolation;
 use crate::model::Obj;
 use crate::sensor::{self, SensorTarget};
 
 const COMMON: &[Attr] = attributes! {
-    Kind::Name("sensor") => name;
+    AttributeType::Name("sensor") => name;
     LIST => user;
 };
 const VALUES: &[Attr] = attributes! { REAL => cutoff noise; };
@@ -14,9 +14,9 @@ const TIMING: &[Attr] = attributes! {
     INT => nsample;
     REAL => delay;
     upto(2) => interval;
-    Kind::Keywords(&[keyword("zoh", interpolation::HOLD), keyword("linear", interpolation::LINEAR), keyword("cubic", interpolation::CUBIC)]) => interp;
+    AttributeType::Keywords(&[keyword("zoh", interpolation::HOLD), keyword("linear", interpolation::LINEAR), keyword("cubic", interpolation::CUBIC)]) => interp;
 };
-const FRAMES: Kind = Kind::Keywords(&[
+const FRAMES: AttributeType = AttributeType::Keywords(&[
     keyword("body", Obj::Body as i32),
     keyword("xbody", Obj::XBody as i32),
     keyword("geom", Obj::Geom as i32),
@@ -28,32 +28,33 @@ const REFERENCE: &[Attr] = attributes! {
     FRAMES => reftype;
     TEXT => refname;
 };
-const SITE: &[Attr] = attributes! { Kind::Ref("site") => site; };
-const JOINT: &[Attr] = attributes! { Kind::Ref("joint") => joint; };
-const TENDON: &[Attr] = attributes! { Kind::Ref("tendon") => tendon; };
-const ACTUATOR: &[Attr] = attributes! { Kind::Ref("actuator") => actuator; };
-const BODY: &[Attr] = attributes! { Kind::Ref("body") => body; };
+const SITE: &[Attr] = attributes! { AttributeType::Ref("site") => site; };
+const JOINT: &[Attr] = attributes! { AttributeType::Ref("joint") => joint; };
+const TENDON: &[Attr] = attributes! { AttributeType::Ref("tendon") => tendon; };
+const ACTUATOR: &[Attr] = attributes! { AttributeType::Ref("actuator") => actuator; };
+const BODY: &[Attr] = attributes! { AttributeType::Ref("body") => body; };
 const DATA: &[Attr] = attributes! { TEXT => data; };
-const CAMERA: &[Attr] = attributes! { Kind::Ref("camera") => camera; };
-const PAIR: &[Attr] = attributes! { Kind::Ref("body") => body1 body2; Kind::Ref("geom") => geom1 geom2; };
+const CAMERA: &[Attr] = attributes! { AttributeType::Ref("camera") => camera; };
+const PAIR: &[Attr] =
+    attributes! { AttributeType::Ref("body") => body1 body2; AttributeType::Ref("geom") => geom1 geom2; };
 
 const CONTACT: &[Attr] = attributes! {
-    Kind::Ref("body") => subtree1 subtree2;
+    AttributeType::Ref("body") => subtree1 subtree2;
     TEXT => data;
-    Kind::Keywords(&[keyword("none", 0), keyword("mindist", 1), keyword("maxforce", 2), keyword("netforce", 3)]) => reduce;
+    AttributeType::Keywords(&[keyword("none", 0), keyword("mindist", 1), keyword("maxforce", 2), keyword("netforce", 3)]) => reduce;
     INT => num;
 };
 const USERS: &[Attr] = attributes! {
     FRAMES => objtype;
     TEXT => objname;
-    Kind::Keywords(&[keyword("real", 0), keyword("positive", 1), keyword("axis", 2), keyword("quaternion", 3)]) => datatype;
-    Kind::Keywords(&[keyword("none", 0), keyword("pos", 1), keyword("vel", 2), keyword("acc", 3)]) => needstage;
+    AttributeType::Keywords(&[keyword("real", 0), keyword("positive", 1), keyword("axis", 2), keyword("quaternion", 3)]) => datatype;
+    AttributeType::Keywords(&[keyword("none", 0), keyword("pos", 1), keyword("vel", 2), keyword("acc", 3)]) => needstage;
     INT => dim;
 };
 const TACTILE: &[Attr] = attributes! {
     REAL => cutoff;
-    Kind::Ref("geom") => geom;
-    Kind::Ref("mesh") => mesh;
+    AttributeType::Ref("geom") => geom;
+    AttributeType::Ref("mesh") => mesh;
 };
 const PLUGIN: &[Attr] = attributes! {
     REAL => cutoff;
@@ -61,7 +62,7 @@ const PLUGIN: &[Attr] = attributes! {
 };
 
 /// The attribute groups of a kind of sensor: those that select the measured object, and those that almost all kinds have.
-const fn groups(kind: &sensor::Kind) -> &'static [&'static [Attr]] {
+const fn groups(kind: &sensor::SensorKind) -> &'static [&'static [Attr]] {
     match kind.senses {
         SensorTarget::Nothing => &[COMMON, VALUES, TIMING],
         SensorTarget::Site => &[COMMON, VALUES, TIMING, SITE],

@@ -1,6 +1,6 @@
 //! `tendon`.
 
-use super::{APPEARANCE, AUTO, Attr, Element, INT, Kind, LIST, REAL, attributes, reals, upto};
+use super::{APPEARANCE, AUTO, Attr, AttributeType, Element, INT, LIST, REAL, attributes, reals, upto};
 
 pub(super) const TENDON_ATTRS: &[Attr] = attributes! {
     INT => group;
@@ -12,14 +12,14 @@ pub(super) const TENDON_ATTRS: &[Attr] = attributes! {
     upto(3) => stiffness damping;
 };
 pub(super) const TENDON_DRAWN: &[Attr] = attributes! {
-    Kind::Ref("material") => material [APPEARANCE];
+    AttributeType::Ref("material") => material [APPEARANCE];
     REAL => width;
     reals(4) => rgba;
 };
 pub(super) const TENDON_USER: &[Attr] = attributes! { LIST => user; };
 const TENDON_OWN: &[Attr] = attributes! {
-    Kind::Name("tendon") => name;
-    Kind::Class => class;
+    AttributeType::Name("tendon") => name;
+    AttributeType::Class => class;
     REAL => armature;
     AUTO => actuatorfrclimited;
     reals(2) => actuatorfrcrange;
@@ -27,11 +27,13 @@ const TENDON_OWN: &[Attr] = attributes! {
 pub(super) static TENDON: Element = Element::new("tendon", &[]).children(&[&SPATIAL, &FIXED]);
 static SPATIAL: Element = Element::new("spatial", &[TENDON_OWN, TENDON_ATTRS, TENDON_DRAWN, TENDON_USER])
     .children(&[&WRAP_SITE, &WRAP_GEOM, &WRAP_PULLEY]);
-static WRAP_SITE: Element = Element::new("site", &[attributes! { Kind::Ref("site") => site; }]);
-static WRAP_GEOM: Element =
-    Element::new("geom", &[attributes! { Kind::Ref("geom") => geom; Kind::Ref("site") => sidesite; }]);
+static WRAP_SITE: Element = Element::new("site", &[attributes! { AttributeType::Ref("site") => site; }]);
+static WRAP_GEOM: Element = Element::new(
+    "geom",
+    &[attributes! { AttributeType::Ref("geom") => geom; AttributeType::Ref("site") => sidesite; }],
+);
 static WRAP_PULLEY: Element = Element::new("pulley", &[attributes! { REAL => divisor; }]);
 static FIXED: Element =
     Element::new("fixed", &[TENDON_OWN, TENDON_ATTRS, TENDON_USER]).children(&[&WRAP_JOINT]);
 static WRAP_JOINT: Element =
-    Element::new("joint", &[attributes! { Kind::Ref("joint") => joint; REAL => coef; }]);
+    Element::new("joint", &[attributes! { AttributeType::Ref("joint") => joint; REAL => coef; }]);

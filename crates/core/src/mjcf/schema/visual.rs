@@ -1,11 +1,11 @@
 //! `visual` and `asset`: the appearance of the scene, and meshes.
 
 use super::APPEARANCE;
+use super::AttributeType;
 use super::Element;
 use super::FLAG;
 use super::INT;
 use super::INTS;
-use super::Kind;
 use super::LIST;
 use super::REAL;
 use super::TEXT;
@@ -72,14 +72,14 @@ pub(super) static ASSET: Element =
 static TEXTURE: Element = Element::new(
     "texture",
     &[attributes! {
-        Kind::Name("texture") => name;
-        Kind::Keywords(&[keyword("2d", 0), keyword("cube", 1), keyword("skybox", 2)]) => type;
-        Kind::Keywords(&[keyword("auto", 0), keyword("linear", 1), keyword("sRGB", 2)]) => colorspace;
+        AttributeType::Name("texture") => name;
+        AttributeType::Keywords(&[keyword("2d", 0), keyword("cube", 1), keyword("skybox", 2)]) => type;
+        AttributeType::Keywords(&[keyword("auto", 0), keyword("linear", 1), keyword("sRGB", 2)]) => colorspace;
         TEXT => content_type file gridlayout fileright fileleft fileup filedown filefront fileback;
-        Kind::Ints(2, 2) => gridsize;
-        Kind::Keywords(&[keyword("none", 0), keyword("gradient", 1), keyword("checker", 2), keyword("flat", 3)]) => builtin;
+        AttributeType::Ints(2, 2) => gridsize;
+        AttributeType::Keywords(&[keyword("none", 0), keyword("gradient", 1), keyword("checker", 2), keyword("flat", 3)]) => builtin;
         reals(3) => rgb1 rgb2 markrgb;
-        Kind::Keywords(&[keyword("none", 0), keyword("edge", 1), keyword("cross", 2), keyword("random", 3)]) => mark;
+        AttributeType::Keywords(&[keyword("none", 0), keyword("edge", 1), keyword("cross", 2), keyword("random", 3)]) => mark;
         REAL => random;
         INT => width height nchannel;
         FLAG => hflip vflip;
@@ -89,7 +89,7 @@ static TEXTURE: Element = Element::new(
 
 /// A material, without its name and class.
 pub(super) const MATERIAL_ATTRS: &[super::Attr] = attributes! {
-    Kind::Ref("texture") => texture;
+    AttributeType::Ref("texture") => texture;
     reals(2) => texrepeat;
     FLAG => texuniform;
     REAL => emission specular shininess reflectance metallic roughness;
@@ -97,12 +97,17 @@ pub(super) const MATERIAL_ATTRS: &[super::Attr] = attributes! {
 };
 pub(super) static MATERIAL: Element = Element::new(
     "material",
-    &[attributes! { Kind::Name("material") => name; Kind::Class => class; }, MATERIAL_ATTRS],
+    &[
+        attributes! { AttributeType::Name("material") => name; AttributeType::Class => class; },
+        MATERIAL_ATTRS,
+    ],
 )
 .children(&[&LAYER]);
 pub(super) static LAYER: Element = Element::new(
     "layer",
-    &[attributes! { Kind::Keywords(TEXTURE_ROLES) => role; Kind::Ref("texture") => texture; }],
+    &[
+        attributes! { AttributeType::Keywords(TEXTURE_ROLES) => role; AttributeType::Ref("texture") => texture; },
+    ],
 );
 
 /// The roles of the textures of a material, as in `mjtTextureRole`.
@@ -122,17 +127,17 @@ const TEXTURE_ROLES: &[super::Keyword] = &[
 pub(super) const MESH_ATTRS: &[super::Attr] = attributes! {
     reals(3) => scale;
     INT => maxhullvert;
-    Kind::Keywords(&[keyword("convex", 0), keyword("exact", 1), keyword("legacy", 2), keyword("shell", 3)]) => inertia;
+    AttributeType::Keywords(&[keyword("convex", 0), keyword("exact", 1), keyword("legacy", 2), keyword("shell", 3)]) => inertia;
 };
 static MESH: Element = Element::new(
     "mesh",
     &[
         attributes! {
-            Kind::Name("mesh") => name;
-            Kind::Class => class;
+            AttributeType::Name("mesh") => name;
+            AttributeType::Class => class;
             TEXT => content_type file builtin;
             FLAG => smoothnormal;
-            Kind::Ref("material") => material;
+            AttributeType::Ref("material") => material;
             LIST => vertex normal texcoord params;
             INTS => face;
             reals(3) => refpos;
@@ -145,7 +150,7 @@ static MESH: Element = Element::new(
 static HFIELD: Element = Element::new(
     "hfield",
     &[attributes! {
-        Kind::Name("hfield") => name;
+        AttributeType::Name("hfield") => name;
         TEXT => content_type file;
         INT => nrow ncol;
         reals(4) => size;
@@ -155,9 +160,9 @@ static HFIELD: Element = Element::new(
 pub(super) static SKIN: Element = Element::new(
     "skin",
     &[attributes! {
-        Kind::Name("skin") => name;
+        AttributeType::Name("skin") => name;
         TEXT => file;
-        Kind::Ref("material") => material;
+        AttributeType::Ref("material") => material;
         reals(4) => rgba;
         REAL => inflate;
         INT => group;
@@ -169,7 +174,7 @@ pub(super) static SKIN: Element = Element::new(
 static BONE: Element = Element::new(
     "bone",
     &[attributes! {
-        Kind::Ref("body") => body;
+        AttributeType::Ref("body") => body;
         reals(3) => bindpos;
         reals(4) => bindquat;
         INTS => vertid;
@@ -179,7 +184,7 @@ static BONE: Element = Element::new(
 static MODEL: Element = Element::new(
     "model",
     &[attributes! {
-        Kind::Name("model") => name;
+        AttributeType::Name("model") => name;
         TEXT => file;
         TEXT => content_type [super::Status::Ignored("a model is MJCF, whatever it says; MuJoCo ignores it too")];
     }],

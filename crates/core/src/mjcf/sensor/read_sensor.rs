@@ -8,18 +8,20 @@ use crate::mjcf::gather::listed;
 use crate::mjcf::ids::References;
 use crate::mjcf::rules::{self, Rule};
 use crate::mjcf::settings::checked;
-use crate::mjcf::spec::{List, SensorObjects, SensorSpec, SensorTiming, TendonSpec};
+use crate::mjcf::spec::{NumberList, SensorObjects, SensorSpec, SensorTiming, TendonSpec};
 use crate::mjcf::text::diagnostic::{Diagnostics, shorten_name};
-use crate::mjcf::text::tree::{Node, Tree, name};
+use crate::mjcf::text::tree::{ElementNode, ElementTree, name};
 use crate::model::Obj;
-use crate::sensor::{CONTACT_DATA, Datatype, KINDS, Kind, RAY_DATA, SensorStage, SensorTarget, data_size};
+use crate::sensor::{
+    CONTACT_DATA, Datatype, KINDS, RAY_DATA, SensorKind, SensorStage, SensorTarget, data_size,
+};
 
 /// Limit for the number of values of all sensors, including samples that are stored for delays.
 const MAX_VALUES: usize = 1 << 22;
 
 /// The inputs for reading a sensor.
-struct Context<'a> {
-    node: &'a Node,
+struct SensorContext<'a> {
+    node: &'a ElementNode,
     /// The attributes of the sensor. Sensors have no defaults.
     p: Props,
     refs: References<'a>,
@@ -29,7 +31,7 @@ struct Context<'a> {
 
 /// All sensors in the order of the text.
 pub(crate) fn sensors(
-    tree: &Tree,
+    tree: &ElementTree,
     refs: References,
     tendons: &[TendonSpec],
     report: &mut Diagnostics,
@@ -42,7 +44,7 @@ pub(crate) fn sensors(
                 return list;
             }
             let Some(number) = KINDS.iter().position(|k| k.name == node.element.name) else { continue };
-            let mut cx = Context { node, p: Props::written_props(node), refs, tendons, report };
+            let mut cx = SensorContext { node, p: Props::written_props(node), refs, tendons, report };
             let Some(sensor) = cx.sensor(number, &KINDS[number]) else { continue };
             let samples = 1 + sensor.timing.nsample.max(0) as usize;
             values += samples.saturating_mul(1 + sensor.dim as usize);
@@ -63,8 +65,8 @@ pub(crate) fn sensors(
     list
 }
 
-impl Context<'_> {
-    fn sensor(&mut self, number: usize, kind: &'static Kind) -> Option<SensorSpec> {
+impl SensorContext<'_> {
+    fn sensor(&mut self, number: usize, kind: &'static SensorKind) -> Option<SensorSpec> {
         let cutoff = self.not_negative("cutoff");
         let noise = self.not_negative("noise");
         let timing = self.timing();
@@ -90,7 +92,7 @@ impl Context<'_> {
             cutoff,
             noise,
             timing,
-            user: List::read(&self.p, "user"),
+            user: NumberList::read(&self.p, "user"),
         })
     }
 
@@ -100,7 +102,7 @@ impl Context<'_> {
         attribute: &str,
         code: &'static Rule,
         message: String,
-    ) -> crate::mjcf::text::diagnostic::Reported<'_> {
+    ) -> crate::mjcf::text::diagnostic::ReportedFinding<'_> {
         let span = self.node.attribute(attribute).map_or(self.node.span.clone(), |a| a.span.clone());
         self.report.error(code, span, message)
     }
@@ -190,7 +192,7 @@ impl Context<'_> {
     }
 
     /// The objects that the sensor is attached to.
-    fn objects(&mut self, kind: &Kind) -> Option<SensorObjects> {
+    fn objects(&mut self, kind: &SensorKind) -> Option<SensorObjects> {
         let attached = |obj: Obj, id: i32| SensorObjects::for_object(obj as i32, id);
         match kind.senses {
             SensorTarget::Nothing | SensorTarget::Tactile | SensorTarget::Plugin => {
@@ -304,7 +306,7 @@ impl Context<'_> {
         Some(SensorObjects::for_object(first.0, first.1).with_reference(second.0, second.1))
     }
 
-    fn check_joint(&mut self, kind: &Kind, id: i32) {
+    fn check_joint(&mut self, kind: &SensorKind, id: i32) {
         let Some((is, limited)) = self.refs.ids.joint(id) else { return };
         let (fits, needs) = match kind.senses {
             SensorTarget::BallJoint => (is == joint::BALL, "a ball joint"),
@@ -333,7 +335,7 @@ impl Context<'_> {
     }
 
     /// The integer parameters, and the number of values.
-    fn parameters(&mut self, kind: &Kind, objects: &SensorObjects) -> Option<([i32; 3], i32)> {
+    fn parameters(&mut self, kind: &SensorKind, objects: &SensorObjects) -> Option<([i32; 3], i32)> {
         match kind.senses {
             SensorTarget::Ray => {
                 let mask = self.data_fields(&RAY_DATA)?;
@@ -415,7 +417,7 @@ impl Context<'_> {
 
     /// The type of the values and the stage that computes them. A user sensor has attributes for these; other kinds have them in
     /// the table.
-    fn meaning(&mut self, kind: &Kind, dim: i32) -> (Datatype, i32) {
+    fn meaning(&mut self, kind: &SensorKind, dim: i32) -> (Datatype, i32) {
         if kind.senses != SensorTarget::User {
             return (kind.datatype, kind.when as i32);
         }

@@ -8,9 +8,9 @@ use crate::mjcf::gather::listed;
 use crate::mjcf::ids::References;
 use crate::mjcf::rules;
 use crate::mjcf::settings::checked;
-use crate::mjcf::spec::{ActuatorSpec, List, SOLIMP, SOLREF, TendonSpec, WrapSpec};
+use crate::mjcf::spec::{ActuatorSpec, NumberList, SOLIMP, SOLREF, TendonSpec, WrapSpec};
 use crate::mjcf::text::diagnostic::Diagnostics;
-use crate::mjcf::text::tree::{Node, name};
+use crate::mjcf::text::tree::{ElementNode, name};
 
 /// All tendons in the order of the text.
 pub(crate) fn tendons(cx: &mut Context, refs: References) -> Vec<TendonSpec> {
@@ -19,7 +19,7 @@ pub(crate) fn tendons(cx: &mut Context, refs: References) -> Vec<TendonSpec> {
     listed(nodes.map(|(i, node)| tendon(cx, refs, i, node)))
 }
 
-fn tendon(cx: &mut Context, refs: References, i: usize, node: &Node) -> TendonSpec {
+fn tendon(cx: &mut Context, refs: References, i: usize, node: &ElementNode) -> TendonSpec {
     cx.enter(node);
     let p = cx.classes.props_of("tendon", node, None);
     let spatial = node.element.name == "spatial";
@@ -72,7 +72,7 @@ fn tendon(cx: &mut Context, refs: References, i: usize, node: &Node) -> TendonSp
         solimp_friction: p.reals("solimpfriction", SOLIMP),
         width: width.unwrap_or(0.003),
         rgba: p.reals("rgba", [0.5, 0.5, 0.5, 1.0]),
-        user: List::read(&p, "user"),
+        user: NumberList::read(&p, "user"),
     }
 }
 
@@ -89,9 +89,9 @@ pub(crate) fn check_rotors(tendons: &[TendonSpec], actuators: &[ActuatorSpec], r
         let Some(t) = a.transmission.filter(|t| t.kind == trntype::TENDON) else { continue };
         let tendon = usize::try_from(t.id[0]).ok().and_then(|t| tendons.get(t));
         if let Some(tendon) = tendon.filter(|t| wraps_geoms(&t.path)) {
-            let of = if tendon.name.is_empty() { String::new() } else { format!(" `{}`", tendon.name) };
+            let name = if tendon.name.is_empty() { String::new() } else { format!(" `{}`", tendon.name) };
             let message =
-                format!("{} has armature and acts on tendon{of}, which wraps around a geom", a.described);
+                format!("{} has armature and acts on tendon{name}, which wraps around a geom", a.described);
             report
                 .error(rules::TENDON, a.span.clone(), message)
                 .why(NO_SECOND_DERIVATIVE)
@@ -102,7 +102,7 @@ pub(crate) fn check_rotors(tendons: &[TendonSpec], actuators: &[ActuatorSpec], r
 
 /// The rest length of a tendon's spring, or a range without force. -1 means the length in the configuration in which joint
 /// springs are relaxed.
-fn springlength(cx: &mut Context, p: &Props, node: &Node) -> [f64; 2] {
+fn springlength(cx: &mut Context, p: &Props, node: &ElementNode) -> [f64; 2] {
     let [lower, upper] = match *p.list("springlength").unwrap_or(&[-1.0]) {
         [both] => [both; 2],
         [lower, upper, ..] => [lower, upper],
@@ -123,9 +123,9 @@ fn springlength(cx: &mut Context, p: &Props, node: &Node) -> [f64; 2] {
 }
 
 /// The objects of a path, in order.
-fn path(cx: &mut Context, refs: References, i: usize, node: &Node) -> Vec<WrapSpec> {
+fn path(cx: &mut Context, refs: References, i: usize, node: &ElementNode) -> Vec<WrapSpec> {
     let tree = cx.tree;
-    let nodes: Vec<&Node> = listed(tree.children(i).map(|(_, n)| n));
+    let nodes: Vec<&ElementNode> = listed(tree.children(i).map(|(_, n)| n));
     if nodes.is_empty() {
         let (what, one) = match node.element.name {
             "fixed" => ("joints", "<joint joint=\"…\" coef=\"1\"/>"),
@@ -148,7 +148,7 @@ fn path(cx: &mut Context, refs: References, i: usize, node: &Node) -> Vec<WrapSp
 }
 
 /// One object of a path. `None`, with an error in the report, if it is invalid.
-fn wrap(refs: References, node: &Node, report: &mut Diagnostics) -> Option<WrapSpec> {
+fn wrap(refs: References, node: &ElementNode, report: &mut Diagnostics) -> Option<WrapSpec> {
     let p = Props::written_props(node);
     let number = |name: &str, report: &mut Diagnostics| {
         if !p.has(name) {
@@ -204,7 +204,7 @@ fn wrap(refs: References, node: &Node, report: &mut Diagnostics) -> Option<WrapS
 }
 
 /// Checks a path: every branch between two pulleys runs from site to site, with at most one geom between two sites.
-fn check_path(nodes: &[&Node], path: &[WrapSpec], report: &mut Diagnostics) {
+fn check_path(nodes: &[&ElementNode], path: &[WrapSpec], report: &mut Diagnostics) {
     let kind = |i: usize| path.get(i).map_or(wraptype::PULLEY, |w| w.kind);
     for (i, (node, wrap)) in nodes.iter().zip(path).enumerate() {
         let (before, after) = (if i == 0 { wraptype::PULLEY } else { kind(i - 1) }, kind(i + 1));

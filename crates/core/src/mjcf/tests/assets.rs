@@ -176,11 +176,14 @@ fn skins_that_do_not_fit() {
         ("file='a.txt'".into(), String::new(), "does not end in .skn"),
         ("file='b.skn'".into(), String::new(), "b.skn"),
     ];
-    for (attributes, bones, want) in cases {
+    for (attributes, bones, expected) in cases {
         let file = if attributes.contains("a.txt") { "a.txt" } else { "a.skn" };
         let asset = format!("<skin name='s' {attributes}>{bones}</skin>");
         let message = load(&asset, "size='1'", file, &skn()).err();
-        assert!(message.as_ref().is_some_and(|m| m.contains(want)), "{asset}: {message:?}, not {want}");
+        assert!(
+            message.as_ref().is_some_and(|m| m.contains(expected)),
+            "{asset}: {message:?}, not {expected}"
+        );
     }
     assert!(load(&format!("<skin {vertex}>{bone}</skin>"), "size='1'", "a.skn", &[]).is_ok());
     let mut other = skn();

@@ -20,16 +20,16 @@ fn check_golden(name: &str, xml: &str, recorded: &str) {
     for line in recorded.lines() {
         if let Some(names) = line.strip_prefix("names.") {
             let (kind, names) = names.split_once(' ').unwrap();
-            let want: Vec<&str> = names.split('|').collect();
+            let expected: Vec<&str> = names.split('|').collect();
             let got = m.names.of_kind(object(kind));
-            if got != want {
-                wrong.push(format!("names.{kind}\n   want {want:?}\n   got  {got:?}"));
+            if got != expected {
+                wrong.push(format!("names.{kind}\n   want {expected:?}\n   got  {got:?}"));
             }
             continue;
         }
         let mut words = line.split(' ');
         let path = words.next().unwrap_or("");
-        let want: Vec<f64> = words.map(|w| w.parse().unwrap()).collect();
+        let expected: Vec<f64> = words.map(|w| w.parse().unwrap()).collect();
         let (object, field) = path.split_once('.').unwrap();
         // Statistics that the model does not specify are computed by `mj_setConst` and tested there.
         if object == "stat" && !xml.contains(&format!("{field}=")) {
@@ -42,7 +42,7 @@ fn check_golden(name: &str, xml: &str, recorded: &str) {
         };
         let Some(id) = reflect::field(object, field).filter(|_| !NOT_YET.contains(&field)) else { continue };
         let got = view(&m, &d, id);
-        let scale = want.iter().fold(0.0_f64, |s, x| s.max(x.abs()));
+        let scale = expected.iter().fold(0.0_f64, |s, x| s.max(x.abs()));
         let tolerance = match field {
             // MuJoCo stores colours in single precision.
             name if name.ends_with("_rgba") => 1e-7,
@@ -53,9 +53,10 @@ fn check_golden(name: &str, xml: &str, recorded: &str) {
             "tendon_invweight0" if xml.contains("sidesite") => 1e-7 * scale,
             _ => 1e-11 * scale,
         };
-        let same = got.len() == want.len() && got.iter().zip(&want).all(|(a, b)| (a - b).abs() <= tolerance);
+        let same =
+            got.len() == expected.len() && got.iter().zip(&expected).all(|(a, b)| (a - b).abs() <= tolerance);
         if !same {
-            wrong.push(format!("{path}\n   want {want:?}\n   got  {got:?}"));
+            wrong.push(format!("{path}\n   want {expected:?}\n   got  {got:?}"));
         }
     }
     assert!(wrong.is_empty(), "{name}:\n{}", wrong.join("\n"));
@@ -148,11 +149,11 @@ fn schema_names() {
     for (path, names) in &mut ours {
         names.sort_unstable();
         match theirs.remove(path) {
-            Some(want) if want == *names => {}
-            Some(want) => wrong.push(format!(
+            Some(expected) if expected == *names => {}
+            Some(expected) => wrong.push(format!(
                 "{path}: missing {:?}, extra {:?}",
-                want.iter().filter(|w| !names.contains(w)).collect::<Vec<_>>(),
-                names.iter().filter(|n| !want.contains(n)).collect::<Vec<_>>()
+                expected.iter().filter(|w| !names.contains(w)).collect::<Vec<_>>(),
+                names.iter().filter(|n| !expected.contains(n)).collect::<Vec<_>>()
             )),
             None => wrong.push(format!("{path}: not in MuJoCo's schema")),
         }

@@ -53,12 +53,13 @@ fn negative_margins_are_those_of_mujoco() {
         let m = compile(&text).unwrap();
         let Workspace { fields: mut d, scratch: mut s } = Workspace::new(&m);
         forward(&m, &mut d, &mut s);
-        let want: Vec<f64> = recorded.split(' ').map(|x| x.parse().unwrap()).collect();
+        let expected: Vec<f64> = recorded.split(' ').map(|x| x.parse().unwrap()).collect();
         let mut ours = vec![d.ncon as f64, d.nefc as f64];
         ours.extend(d.contact.iter().map(|c| c.dist));
-        let same = want.len() == ours.len() && want.iter().zip(&ours).all(|(a, b)| (a - b).abs() < 1e-9);
+        let same =
+            expected.len() == ours.len() && expected.iter().zip(&ours).all(|(a, b)| (a - b).abs() < 1e-9);
         if !same {
-            wrong.push(format!("want {want:?}, got {ours:?}: {text}"));
+            wrong.push(format!("want {expected:?}, got {ours:?}: {text}"));
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
@@ -69,11 +70,11 @@ fn negative_margins_are_those_of_mujoco() {
 fn axes_of_nearly_symmetric_meshes_are_those_of_mujoco() {
     let mut wrong = Vec::new();
     for (recorded, text) in cases(include_str!("../golden/ties.txt")) {
-        let want: Vec<f64> = recorded.split(' ').map(|x| x.parse().unwrap()).collect();
+        let expected: Vec<f64> = recorded.split(' ').map(|x| x.parse().unwrap()).collect();
         let ours = compile(&text).unwrap().geom_quat;
-        let product: f64 = want.iter().zip(&ours).map(|(a, b)| a * b).sum();
+        let product: f64 = expected.iter().zip(&ours).map(|(a, b)| a * b).sum();
         if 1.0 - product.abs() > 1e-12 {
-            wrong.push(format!("want {want:?}, got {ours:?}: {text}"));
+            wrong.push(format!("want {expected:?}, got {ours:?}: {text}"));
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));

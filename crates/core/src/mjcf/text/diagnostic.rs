@@ -20,9 +20,9 @@ const MAX_DIAGNOSTICS: usize = 100;
 const MAX_NUMBERS: usize = 25_000_000;
 
 /// A finding that was just added. The reason and the next step can be added to it.
-pub(crate) struct Reported<'r>(&'r mut Finding);
+pub(crate) struct ReportedFinding<'r>(&'r mut Finding);
 
-impl Reported<'_> {
+impl ReportedFinding<'_> {
     /// Adds the reason why the finding matters.
     pub(crate) fn why(self, why: impl Into<String>) -> Self {
         self.0.why = Some(why.into());
@@ -112,7 +112,7 @@ impl std::error::Error for MjcfFileError {
 }
 
 /// A text of a model: the main model or another file.
-struct Source {
+struct SourceText {
     /// `None` for the model itself.
     file: Option<String>,
     text: Rc<str>,
@@ -122,7 +122,7 @@ struct Source {
 
 /// Collects the findings in the texts of one model.
 pub(crate) struct Diagnostics {
-    sources: Vec<Source>,
+    sources: Vec<SourceText>,
     /// Errors.
     list: Vec<Finding>,
     warnings: Vec<Finding>,
@@ -148,7 +148,7 @@ impl Diagnostics {
     pub(crate) fn source(&mut self, file: Option<&str>, text: Rc<str>) -> usize {
         // One byte separates two texts, so that the end of one differs from the start of the next.
         let base = self.bytes() + self.sources.len();
-        self.sources.push(Source { file: file.map(str::to_string), text, base });
+        self.sources.push(SourceText { file: file.map(str::to_string), text, base });
         base
     }
 
@@ -163,7 +163,7 @@ impl Diagnostics {
         rule: &'static Rule,
         span: Range<usize>,
         message: impl Into<String>,
-    ) -> Reported<'_> {
+    ) -> ReportedFinding<'_> {
         add(&mut self.list, Finding::error(rule, span, message))
     }
 
@@ -173,7 +173,7 @@ impl Diagnostics {
         rule: &'static Rule,
         span: Range<usize>,
         message: impl Into<String>,
-    ) -> Reported<'_> {
+    ) -> ReportedFinding<'_> {
         add(&mut self.warnings, Finding::warning(rule, span, message))
     }
 
@@ -183,7 +183,7 @@ impl Diagnostics {
         rule: &'static Rule,
         span: Range<usize>,
         message: impl Into<String>,
-    ) -> Reported<'_> {
+    ) -> ReportedFinding<'_> {
         add(&mut self.warnings, Finding::plain(rule, span, message).severity(Severity::Note))
     }
 
@@ -228,7 +228,8 @@ impl Diagnostics {
         let mut last = (usize::MAX, 0, Position { line: 0, column: 1 });
         for d in &mut self.list {
             let i = self.sources.partition_point(|s| s.base <= d.span.start).saturating_sub(1);
-            let (Some(Source { file, text, base }), Some(lines)) = (self.sources.get(i), lines.get_mut(i))
+            let (Some(SourceText { file, text, base }), Some(lines)) =
+                (self.sources.get(i), lines.get_mut(i))
             else {
                 continue;
             };
@@ -251,13 +252,13 @@ impl Diagnostics {
 }
 
 /// Adds a finding to a list. At the limit, it replaces the last finding of the list.
-fn add(list: &mut Vec<Finding>, finding: Finding) -> Reported<'_> {
+fn add(list: &mut Vec<Finding>, finding: Finding) -> ReportedFinding<'_> {
     if list.len() > MAX_DIAGNOSTICS {
         list.pop();
     }
     let at = list.len();
     list.push(finding);
-    Reported(&mut list[at]) // in bounds: the element was just pushed
+    ReportedFinding(&mut list[at]) // in bounds: the element was just pushed
 }
 
 /// A name for a message: quoted, and truncated if it is very long.

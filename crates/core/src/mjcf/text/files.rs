@@ -193,8 +193,8 @@ mod tests {
             assert!(matches!(read, Err(FileProblem::Outside)), "{path}: {read:?}");
         }
         // If the root does not contain the model, only the model's own folder can be read.
-        let apart = Folder::at(&root.join("stls"), &root.join("models")).unwrap();
-        assert_eq!(apart.read("../stls/x.stl", 9), Err(FileProblem::Outside));
+        let separate = Folder::at(&root.join("stls"), &root.join("models")).unwrap();
+        assert_eq!(separate.read("../stls/x.stl", 9), Err(FileProblem::Outside));
     }
 
     #[cfg(unix)]

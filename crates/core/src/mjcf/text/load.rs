@@ -13,8 +13,8 @@ use super::diagnostic::{Diagnostics, shorten_name};
 use super::files::{FileProblem, Files, folder_of, normalize_path};
 use super::patch::{self, Patch, Refusal};
 use super::scan;
-use super::tree::{self, Tree};
-use super::xml::{self, Element};
+use super::tree::{self, ElementTree};
+use super::xml::{self, XmlElement};
 use crate::mjcf::rules;
 use crate::mjcf::{MAX_TEXT, names};
 
@@ -26,7 +26,7 @@ const MAX_NESTED: usize = 10;
 /// A model before `replicate` and `attach` are expanded.
 #[derive(Debug)]
 pub(crate) struct UnexpandedModel {
-    pub(crate) tree: Tree,
+    pub(crate) tree: ElementTree,
     /// The folder of its files; empty for the folder of the main model.
     pub(crate) folder: String,
     /// The models that it may attach, by name.
@@ -36,7 +36,7 @@ pub(crate) struct UnexpandedModel {
 /// Reads models and counts the resources that they use.
 pub(crate) struct Loader<'f> {
     files: &'f dyn Files,
-    counts: scan::Counts,
+    counts: scan::TextCounts,
     files_read: usize,
     /// The files of the models that are currently being read. Each is attached by the one before.
     open: Vec<String>,
@@ -47,7 +47,7 @@ pub(crate) struct Loader<'f> {
 
 impl<'f> Loader<'f> {
     pub(crate) fn new(files: &'f dyn Files, patches: &'f [Patch]) -> Loader<'f> {
-        let (counts, open, refusals) = (scan::Counts::default(), Vec::new(), Vec::new());
+        let (counts, open, refusals) = (scan::TextCounts::default(), Vec::new(), Vec::new());
         Loader { files, counts, files_read: 0, open, patches, refusals }
     }
 
@@ -104,7 +104,7 @@ impl<'f> Loader<'f> {
         &mut self,
         text: &str,
         base: usize,
-        list: &mut Vec<Element>,
+        list: &mut Vec<XmlElement>,
         report: &mut Diagnostics,
     ) -> Option<usize> {
         let text = scan::prepare(text, base, &mut self.counts, report)?;
@@ -114,7 +114,7 @@ impl<'f> Loader<'f> {
     /// Inserts the contents of files below the elements that include them. These files may include others.
     fn include(
         &mut self,
-        list: &mut Vec<Element>,
+        list: &mut Vec<XmlElement>,
         model_name: Option<&str>,
         folder: &str,
         report: &mut Diagnostics,
@@ -136,7 +136,7 @@ impl<'f> Loader<'f> {
     fn included(
         &mut self,
         at: usize,
-        list: &mut Vec<Element>,
+        list: &mut Vec<XmlElement>,
         folder: &str,
         included: &mut BTreeSet<String>,
         report: &mut Diagnostics,
@@ -182,7 +182,7 @@ impl<'f> Loader<'f> {
     /// The models that the assets of a model refer to.
     fn models(
         &mut self,
-        tree: &Tree,
+        tree: &ElementTree,
         folder: &str,
         report: &mut Diagnostics,
     ) -> BTreeMap<String, UnexpandedModel> {

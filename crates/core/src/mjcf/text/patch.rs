@@ -4,9 +4,9 @@
 //! compiled as if the author had written the new values.
 
 use super::diagnostic::nearest;
-use super::xml::{Attribute, Element};
+use super::xml::{XmlAttribute, XmlElement};
 use crate::mjcf::gather::listed;
-use crate::mjcf::schema::{self, INCLUDE, Kind, ROOT};
+use crate::mjcf::schema::{self, AttributeType, INCLUDE, ROOT};
 use labspec_finding::order;
 
 /// Elements that occur at most once and may be absent. The first name is the parent of the second.
@@ -47,7 +47,7 @@ struct PatchElement {
 }
 
 /// Applies one patch.
-pub(super) fn apply(list: &mut Vec<Element>, root: usize, patch: &Patch) -> Result<(), Refusal> {
+pub(super) fn apply(list: &mut Vec<XmlElement>, root: usize, patch: &Patch) -> Result<(), Refusal> {
     let refuse = |message: String, help: &str| Err(Refusal { message, help: help.to_string() });
     let words: Vec<&str> = listed(patch.path.split_whitespace());
     let (kind, name, attribute) = match words.as_slice() {
@@ -71,7 +71,7 @@ pub(super) fn apply(list: &mut Vec<Element>, root: usize, patch: &Patch) -> Resu
         _ => found,
     };
     match found.schema.attribute(attribute) {
-        Some(attr) if matches!(attr.kind, Kind::Name(_)) => refuse(
+        Some(attr) if matches!(attr.kind, AttributeType::Name(_)) => refuse(
             format!("the name of a {kind} cannot be changed"),
             "change one of its attributes: objects are found by their names",
         ),
@@ -89,7 +89,7 @@ pub(super) fn apply(list: &mut Vec<Element>, root: usize, patch: &Patch) -> Resu
 /// The element of a kind with a name, or the only element of that kind. A missing settings element is created where it is
 /// allowed.
 fn find_element(
-    list: &mut Vec<Element>,
+    list: &mut Vec<XmlElement>,
     elements: &[PatchElement],
     kind: &str,
     name: Option<&str>,
@@ -128,7 +128,7 @@ fn find_element(
 }
 
 /// All elements below the root that the schema contains. Included elements belong to the parent of the `include`.
-fn list_elements(list: &[Element], root: usize) -> Vec<PatchElement> {
+fn list_elements(list: &[XmlElement], root: usize) -> Vec<PatchElement> {
     let (mut all, mut open) =
         (Vec::new(), vec![PatchElement { at: root, parent: root, schema: &ROOT, default: false }]);
     while let Some(elements) = open.pop() {
@@ -151,7 +151,7 @@ fn list_elements(list: &[Element], root: usize) -> Vec<PatchElement> {
 
 /// Creates a settings element that the text does not contain.
 fn create_settings_element(
-    list: &mut Vec<Element>,
+    list: &mut Vec<XmlElement>,
     kind: &str,
     elements: &[PatchElement],
 ) -> Option<PatchElement> {
@@ -159,7 +159,7 @@ fn create_settings_element(
     let holder = elements.iter().find(|s| s.schema.name == *parent).copied();
     let holder = holder.or_else(|| create_settings_element(list, parent, elements))?;
     let (at, span) = (list.len(), list.get(holder.at)?.span.clone());
-    list.push(Element {
+    list.push(XmlElement {
         name: (*name).to_string(),
         span,
         namespace: false,
@@ -172,7 +172,7 @@ fn create_settings_element(
 
 /// The element that contains the mass of a body: its `inertial`, or its only geom.
 fn mass_of(
-    list: &[Element],
+    list: &[XmlElement],
     body: PatchElement,
     elements: &[PatchElement],
     name: &str,
@@ -196,11 +196,11 @@ fn mass_of(
     }
 }
 
-fn set(list: &mut [Element], at: usize, attribute: &str, value: &str) {
+fn set(list: &mut [XmlElement], at: usize, attribute: &str, value: &str) {
     let Some(element) = list.get_mut(at) else { return };
     let span = element.span.clone();
     element.attributes.retain(|a| a.name != attribute || a.namespace);
-    element.attributes.push(Attribute {
+    element.attributes.push(XmlAttribute {
         name: attribute.to_string(),
         value: value.to_string(),
         name_span: span.clone(),

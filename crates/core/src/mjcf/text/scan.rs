@@ -13,7 +13,7 @@ use crate::mjcf::{MAX_ALL_ATTRIBUTES, MAX_ATTRIBUTES, MAX_DEPTH, MAX_ELEMENTS, M
 
 /// Counts over all texts of a model so far.
 #[derive(Debug, Default)]
-pub(crate) struct Counts {
+pub(crate) struct TextCounts {
     elements: usize,
     attributes: usize,
 }
@@ -32,7 +32,7 @@ impl Prepared<'_> {
         if self.inserted.is_empty() {
             return byte;
         }
-        // The nth blank is n bytes behind its offset in the text as written.
+        // The nth blank is n bytes after its offset in the text as written.
         let (mut low, mut high) = (0, self.inserted.len());
         while low < high {
             let n = (low + high) / 2;
@@ -44,7 +44,7 @@ impl Prepared<'_> {
 
 /// The changes of a text before it is parsed.
 #[derive(Debug, Default)]
-struct Changes {
+struct TextChanges {
     /// Ranges that are replaced by blanks.
     blanks: Vec<Range<usize>>,
     /// The offsets at which a blank is missing.
@@ -57,14 +57,14 @@ struct Changes {
 pub(crate) fn prepare<'t>(
     text: &'t str,
     base: usize,
-    counts: &mut Counts,
+    counts: &mut TextCounts,
     report: &mut Diagnostics,
 ) -> Option<Prepared<'t>> {
-    let mut changes = Changes::default();
+    let mut changes = TextChanges::default();
     if !within_limits(text, base, counts, &mut changes, report) {
         return None;
     }
-    let Changes { blanks, inserted } = changes;
+    let TextChanges { blanks, inserted } = changes;
     let mut text =
         if blanks.is_empty() { Cow::Borrowed(text) } else { Cow::Owned(replace_by_blanks(text, &blanks)) };
     if !inserted.is_empty() {
@@ -94,7 +94,13 @@ fn replace_by_blanks(text: &str, places: &[Range<usize>]) -> String {
 }
 
 /// Skips the text of a range, with a warning if it is not blank.
-fn skip_text(text: &str, range: Range<usize>, base: usize, changes: &mut Changes, report: &mut Diagnostics) {
+fn skip_text(
+    text: &str,
+    range: Range<usize>,
+    base: usize,
+    changes: &mut TextChanges,
+    report: &mut Diagnostics,
+) {
     let Some(between) = text.get(range.clone()) else { return };
     // A text may start with a byte order mark.
     let between = between.strip_prefix('\u{feff}').filter(|_| range.start == 0).unwrap_or(between);
@@ -118,8 +124,8 @@ fn skip_text(text: &str, range: Range<usize>, base: usize, changes: &mut Changes
 fn within_limits(
     text: &str,
     base: usize,
-    counts: &mut Counts,
-    changes: &mut Changes,
+    counts: &mut TextCounts,
+    changes: &mut TextChanges,
     report: &mut Diagnostics,
 ) -> bool {
     let size = report.bytes();
@@ -182,11 +188,11 @@ fn refuse_declaration(at: usize, report: &mut Diagnostics) {
 
 /// Whether the limits are observed, including the element that starts with the tag at `open`, `depth` levels deep.
 fn tag_within_limits(
-    tag: &Tag,
+    tag: &ScannedTag,
     open: usize,
     base: usize,
     depth: usize,
-    counts: &mut Counts,
+    counts: &mut TextCounts,
     report: &mut Diagnostics,
 ) -> bool {
     counts.elements += 1;
@@ -218,7 +224,7 @@ fn tag_within_limits(
     false
 }
 
-struct Tag {
+struct ScannedTag {
     end: usize,
     attributes: usize,
     closed: bool,
@@ -229,7 +235,7 @@ struct Tag {
 }
 
 /// A start tag from its name to the `>` outside of quotes.
-fn tag(bytes: &[u8], start: usize) -> Tag {
+fn tag(bytes: &[u8], start: usize) -> ScannedTag {
     let (mut quote, mut attributes, mut last, mut namespace) = (None, 0, b'<', None);
     let mut joined = Vec::new();
     for (i, &b) in bytes.iter().enumerate().skip(start) {
@@ -244,7 +250,9 @@ fn tag(bytes: &[u8], start: usize) -> Tag {
             None => match b {
                 b'"' | b'\'' => quote = Some(b),
                 b'=' => attributes += 1,
-                b'>' => return Tag { end: i + 1, attributes, closed: last == b'/', namespace, joined },
+                b'>' => {
+                    return ScannedTag { end: i + 1, attributes, closed: last == b'/', namespace, joined };
+                }
                 b'x' if last.is_ascii_whitespace()
                     && bytes.get(i..).is_some_and(|b| b.starts_with(b"xmlns")) =>
                 {
@@ -255,7 +263,7 @@ fn tag(bytes: &[u8], start: usize) -> Tag {
         }
         last = b;
     }
-    Tag { end: bytes.len(), attributes, closed: true, namespace, joined }
+    ScannedTag { end: bytes.len(), attributes, closed: true, namespace, joined }
 }
 
 /// Whether the bytes start with a name, an equals sign and a quote.
@@ -282,7 +290,7 @@ mod tests {
     fn code_of(text: &str) -> Option<&'static str> {
         let mut report = Diagnostics::new();
         let base = report.source(None, text.into());
-        prepare(text, base, &mut Counts::default(), &mut report);
+        prepare(text, base, &mut TextCounts::default(), &mut report);
         report.finish().first().map(|d| d.code)
     }
 
@@ -311,7 +319,7 @@ mod tests {
         ] {
             let mut report = Diagnostics::new();
             let base = report.source(None, text.into());
-            let blanked = prepare(text, base, &mut Counts::default(), &mut report).unwrap();
+            let blanked = prepare(text, base, &mut TextCounts::default(), &mut report).unwrap();
             assert_eq!(blanked.text, expected);
             assert!(report.is_clean());
         }
@@ -322,7 +330,7 @@ mod tests {
         let text = "<a b='1'c=\"2\"d ='3'>x<e f='1'2'/></a>";
         let mut report = Diagnostics::new();
         let base = report.source(None, text.into());
-        let prepared = prepare(text, base, &mut Counts::default(), &mut report).unwrap();
+        let prepared = prepare(text, base, &mut TextCounts::default(), &mut report).unwrap();
         assert_eq!(prepared.text, "<a b='1' c=\"2\" d ='3'> <e f='1'2'/></a>");
         for (byte, c) in prepared.text.char_indices().filter(|(_, c)| !c.is_whitespace()) {
             let written = prepared.written(byte);

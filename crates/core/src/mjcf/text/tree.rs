@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use super::diagnostic::{Diagnostics, nearest, shorten_name};
 use super::values::{self, Value};
-use super::xml::Element as Xml;
+use super::xml::XmlElement as Xml;
 use crate::mjcf::MAX_DEPTH;
 use crate::mjcf::rules;
 use crate::mjcf::schema::{Attr, Element, INCLUDE, ROOT, Status, parents_of};
@@ -23,7 +23,7 @@ pub(crate) struct Attribute {
 
 /// An element.
 #[derive(Clone, Debug)]
-pub(crate) struct Node {
+pub(crate) struct ElementNode {
     pub(crate) element: &'static Element,
     /// The model that contains the element: 0 for the main model, others are attached.
     pub(crate) model: usize,
@@ -34,7 +34,7 @@ pub(crate) struct Node {
     pub(crate) children: Vec<usize>,
 }
 
-impl Node {
+impl ElementNode {
     /// The attribute of this name.
     pub(crate) fn attribute(&self, name: &str) -> Option<&Attribute> {
         #[cfg(test)]
@@ -85,25 +85,25 @@ impl Node {
 
 /// All elements in document order; the first is the root.
 #[derive(Debug, Default)]
-pub(crate) struct Tree {
-    pub(crate) nodes: Vec<Node>,
+pub(crate) struct ElementTree {
+    pub(crate) nodes: Vec<ElementNode>,
 }
 
-impl Tree {
+impl ElementTree {
     /// The elements of this name directly below a node, with their indices.
-    pub(crate) fn children(&self, of: usize) -> impl Iterator<Item = (usize, &Node)> {
-        let list = self.nodes.get(of).map_or(&[][..], |n| &n.children);
+    pub(crate) fn children(&self, parent: usize) -> impl Iterator<Item = (usize, &ElementNode)> {
+        let list = self.nodes.get(parent).map_or(&[][..], |n| &n.children);
         list.iter().filter_map(|&i| self.nodes.get(i).map(|n| (i, n)))
     }
 
     /// All sections of this name. A section such as `worldbody` may occur several times.
-    pub(crate) fn sections<'t>(&'t self, name: &'t str) -> impl Iterator<Item = (usize, &'t Node)> {
+    pub(crate) fn sections<'t>(&'t self, name: &'t str) -> impl Iterator<Item = (usize, &'t ElementNode)> {
         self.children(0).filter(move |(_, n)| n.element.name == name)
     }
 }
 
 /// Checks the elements of a model. `None` if the text is not a model.
-pub(crate) fn check_tree(list: &[Xml], root: usize, report: &mut Diagnostics) -> Option<Tree> {
+pub(crate) fn check_tree(list: &[Xml], root: usize, report: &mut Diagnostics) -> Option<ElementTree> {
     let name = list.get(root).map_or("", |r| r.name.as_str());
     if name != ROOT.name {
         let span = list.get(root).map_or(0..0, |r| r.span.clone());
@@ -117,7 +117,7 @@ pub(crate) fn check_tree(list: &[Xml], root: usize, report: &mut Diagnostics) ->
         return None;
     }
 
-    let mut tree = Tree::default();
+    let mut tree = ElementTree::default();
     let mut stack = vec![(root, &ROOT, None, 1)];
     while let Some((at, element, parent, depth)) = stack.pop() {
         let Some(xml) = list.get(at) else { continue };
@@ -138,7 +138,7 @@ pub(crate) fn check_tree(list: &[Xml], root: usize, report: &mut Diagnostics) ->
         }
         let attributes = attributes(xml, element, report);
         let span = xml.span.clone();
-        tree.nodes.push(Node { element, model: 0, parent, span, attributes, children: Vec::new() });
+        tree.nodes.push(ElementNode { element, model: 0, parent, span, attributes, children: Vec::new() });
 
         let below = children(list, xml, element, report);
         stack.extend(below.into_iter().rev().map(|(x, e)| (x, e, Some(index), depth + 1)));
@@ -309,7 +309,7 @@ fn counts_when_empty(element: &str, attribute: &str) -> bool {
     attribute == "quat"
         || (element == "inertial" && crate::mjcf::schema::is_form(attribute))
         || matches!((element, attribute), ("connect" | "weld", "anchor" | "relpose"))
-        || EXCLUSIVE.iter().any(|(of, pair)| *of == element && pair.contains(&attribute))
+        || EXCLUSIVE.iter().any(|(name, pair)| *name == element && pair.contains(&attribute))
 }
 
 /// Pairs of attributes that exclude each other. MuJoCo's schema checks the element itself, not its class. (Exclusive attributes
@@ -323,7 +323,7 @@ const EXCLUSIVE: [(&str, [&str; 2]); 4] = [
 
 fn exclusive(list: &[Attribute], element: &Element, report: &mut Diagnostics) {
     let find = |name: &str| list.iter().find(|a| a.attr.name == name);
-    for (_, [first, second]) in EXCLUSIVE.iter().filter(|(of, _)| *of == element.name) {
+    for (_, [first, second]) in EXCLUSIVE.iter().filter(|(name, _)| *name == element.name) {
         if let (Some(_), Some(other)) = (find(first), find(second)) {
             let message = format!("{} has both `{first}` and `{second}`", element.name);
             report
@@ -355,6 +355,6 @@ fn unknown_attribute(name: &str, span: Range<usize>, element: &'static Element, 
 }
 
 /// The name of an element, empty if it has none.
-pub(crate) fn name(node: &Node) -> String {
+pub(crate) fn name(node: &ElementNode) -> String {
     node.text("name").unwrap_or("").to_string()
 }

@@ -6,7 +6,7 @@ use std::rc::Rc;
 use super::diagnostic::{nearest, shorten_name};
 use crate::mjcf::gather::listed;
 use crate::mjcf::rules::{self, Rule};
-use crate::mjcf::schema::{Keyword, Kind};
+use crate::mjcf::schema::{AttributeType, Keyword};
 
 /// The value of an attribute. Lists are shared between all copies of an element and all elements that take a default.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,7 +28,7 @@ const LONGEST_NAME: usize = 1000;
 
 /// The reason why a value is invalid.
 #[derive(Debug)]
-pub(crate) struct Problem {
+pub(crate) struct ValueProblem {
     pub(crate) code: &'static Rule,
     /// The invalid bytes of the value's text, or `None` for all of it.
     pub(crate) at: Option<Range<usize>>,
@@ -37,46 +37,54 @@ pub(crate) struct Problem {
     pub(crate) help: Option<String>,
 }
 
-impl Problem {
-    fn new(code: &'static Rule, message: String) -> Problem {
-        Problem { code, at: None, message, help: None }
+impl ValueProblem {
+    fn new(code: &'static Rule, message: String) -> ValueProblem {
+        ValueProblem { code, at: None, message, help: None }
     }
 }
 
 /// Reads a value of the given type.
-pub(crate) fn parse(kind: Kind, text: &str) -> Result<Value, Problem> {
+pub(crate) fn parse(kind: AttributeType, text: &str) -> Result<Value, ValueProblem> {
     match kind {
-        Kind::Reals(min, max) => {
+        AttributeType::Reals(min, max) => {
             let numbers = numbers(text, real)?;
             check_count(numbers.len(), min, max, "number").map(|()| Value::Reals(numbers.into()))
         }
-        Kind::Ints(min, max) => {
+        AttributeType::Ints(min, max) => {
             let numbers = numbers(text, integer)?;
             check_count(numbers.len(), min, max, "integer").map(|()| Value::Ints(numbers.into()))
         }
-        Kind::Keywords(words) => keyword(words, text),
-        Kind::Name(_) | Kind::Ref(_) | Kind::Class if text.len() > LONGEST_NAME => Err(Problem::new(
-            rules::LIMIT,
-            format!("is too long: {} bytes, but a name can have at most {LONGEST_NAME}", text.len()),
-        )),
-        Kind::Name(_) | Kind::Ref(_) | Kind::Class | Kind::Text => Ok(Value::Text(text.to_string())),
+        AttributeType::Keywords(words) => keyword(words, text),
+        AttributeType::Name(_) | AttributeType::Ref(_) | AttributeType::Class
+            if text.len() > LONGEST_NAME =>
+        {
+            Err(ValueProblem::new(
+                rules::LIMIT,
+                format!("is too long: {} bytes, but a name can have at most {LONGEST_NAME}", text.len()),
+            ))
+        }
+        AttributeType::Name(_) | AttributeType::Ref(_) | AttributeType::Class | AttributeType::Text => {
+            Ok(Value::Text(text.to_string()))
+        }
     }
 }
 
-fn keyword(words: &[Keyword], text: &str) -> Result<Value, Problem> {
+fn keyword(words: &[Keyword], text: &str) -> Result<Value, ValueProblem> {
     if let Some(word) = words.iter().find(|w| w.text == text) {
         if word.supported {
             return Ok(Value::Keyword(word.value));
         }
-        let mut problem = Problem::new(
+        let mut problem = ValueProblem::new(
             rules::NOT_SUPPORTED,
             format!("is {}, which is not supported yet", shorten_name(text)),
         );
         problem.help = Some(format!("supported: {}", list_keywords(words)));
         return Err(problem);
     }
-    let mut problem =
-        Problem::new(rules::KEYWORD, format!("is {}, which is not an allowed keyword", shorten_name(text)));
+    let mut problem = ValueProblem::new(
+        rules::KEYWORD,
+        format!("is {}, which is not an allowed keyword", shorten_name(text)),
+    );
     problem.help = Some(match nearest(text.trim(), words.iter().filter(|w| w.supported).map(|w| w.text)) {
         Some(word) => format!("did you mean `{word}`?"),
         None => format!("write one of: {}", list_keywords(words)),
@@ -90,7 +98,7 @@ fn list_keywords(words: &[Keyword]) -> String {
 }
 
 /// The words of a text, each converted by `read`. Errors contain the bytes of the word.
-fn numbers<T>(text: &str, read: impl Fn(&str) -> Result<T, Problem>) -> Result<Vec<T>, Problem> {
+fn numbers<T>(text: &str, read: impl Fn(&str) -> Result<T, ValueProblem>) -> Result<Vec<T>, ValueProblem> {
     let mut list = Vec::new();
     let mut rest = text;
     loop {
@@ -101,7 +109,7 @@ fn numbers<T>(text: &str, read: impl Fn(&str) -> Result<T, Problem>) -> Result<V
         let end = rest.find(is_space).unwrap_or(rest.len());
         let (word, after) = rest.split_at(end);
         let start = text.len() - rest.len();
-        list.push(read(word).map_err(|p| Problem { at: Some(start..start + end), ..p })?);
+        list.push(read(word).map_err(|p| ValueProblem { at: Some(start..start + end), ..p })?);
         rest = after;
     }
 }
@@ -110,15 +118,15 @@ fn is_space(c: char) -> bool {
     matches!(c, ' ' | '\t' | '\n' | '\r')
 }
 
-fn real(word: &str) -> Result<f64, Problem> {
+fn real(word: &str) -> Result<f64, ValueProblem> {
     let plain = word.bytes().all(|b| b.is_ascii_digit() || matches!(b, b'+' | b'-' | b'.' | b'e' | b'E'));
     match word.parse::<f64>() {
         Ok(x) if plain && x.is_finite() => Ok(x),
-        Ok(_) if plain => Err(Problem::new(
+        Ok(_) if plain => Err(ValueProblem::new(
             rules::NUMBER,
             format!("has {}, which exceeds a 64-bit number", shorten_name(word)),
         )),
-        Ok(_) => Err(Problem::new(
+        Ok(_) => Err(ValueProblem::new(
             rules::NUMBER,
             format!("has {}, but numbers must be finite", shorten_name(word)),
         )),
@@ -126,13 +134,13 @@ fn real(word: &str) -> Result<f64, Problem> {
     }
 }
 
-fn integer(word: &str) -> Result<i32, Problem> {
+fn integer(word: &str) -> Result<i32, ValueProblem> {
     if let Ok(n) = word.parse::<i32>() {
         return Ok(n);
     }
     let digits = word.trim_start_matches(['+', '-']);
     if !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_digit()) {
-        return Err(Problem::new(
+        return Err(ValueProblem::new(
             rules::NUMBER,
             format!("has {}, which does not fit into a 32-bit integer", shorten_name(word)),
         ));
@@ -140,8 +148,8 @@ fn integer(word: &str) -> Result<i32, Problem> {
     Err(not_a_number(word, "integer"))
 }
 
-fn not_a_number(word: &str, noun: &str) -> Problem {
-    let mut problem = Problem::new(
+fn not_a_number(word: &str, noun: &str) -> ValueProblem {
+    let mut problem = ValueProblem::new(
         rules::NUMBER,
         format!("has {}, which is not {} {noun}", shorten_name(word), article(noun)),
     );
@@ -155,7 +163,7 @@ fn article(noun: &str) -> &'static str {
     if noun.starts_with('i') { "an" } else { "a" }
 }
 
-fn check_count(n: usize, min: usize, max: usize, noun: &str) -> Result<(), Problem> {
+fn check_count(n: usize, min: usize, max: usize, noun: &str) -> Result<(), ValueProblem> {
     if (min..=max).contains(&n) {
         return Ok(());
     }
@@ -170,7 +178,7 @@ fn check_count(n: usize, min: usize, max: usize, noun: &str) -> Result<(), Probl
         (_, b) if n > b => format!("at most {b}"),
         (a, _) => format!("at least {a}"),
     };
-    Err(Problem::new(rules::COUNT, format!("{has}, but needs {needs}")))
+    Err(ValueProblem::new(rules::COUNT, format!("{has}, but needs {needs}")))
 }
 
 #[cfg(test)]
@@ -178,7 +186,7 @@ mod tests {
     use super::*;
 
     fn reals(text: &str) -> Option<Vec<f64>> {
-        match parse(Kind::Reals(0, 9), text) {
+        match parse(AttributeType::Reals(0, 9), text) {
             Ok(Value::Reals(v)) => Some(v.to_vec()),
             _ => None,
         }
@@ -194,9 +202,12 @@ mod tests {
 
     #[test]
     fn a_problem_points_at_the_number() {
-        let problem = parse(Kind::Reals(3, 3), "1  x2 3").unwrap_err();
+        let problem = parse(AttributeType::Reals(3, 3), "1  x2 3").unwrap_err();
         assert_eq!(problem.at, Some(3..5));
-        assert_eq!(parse(Kind::Ints(1, 1), "99999999999").unwrap_err().code, rules::NUMBER);
-        assert_eq!(parse(Kind::Reals(2, 3), "1").unwrap_err().message, "has 1 number, but needs at least 2");
+        assert_eq!(parse(AttributeType::Ints(1, 1), "99999999999").unwrap_err().code, rules::NUMBER);
+        assert_eq!(
+            parse(AttributeType::Reals(2, 3), "1").unwrap_err().message,
+            "has 1 number, but needs at least 2"
+        );
     }
 }

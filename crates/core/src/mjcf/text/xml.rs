@@ -14,7 +14,7 @@ use crate::mjcf::rules;
 
 /// An attribute as written in the text.
 #[derive(Debug)]
-pub(crate) struct Attribute {
+pub(crate) struct XmlAttribute {
     pub(crate) name: String,
     /// The value with its character references resolved.
     pub(crate) value: String,
@@ -28,24 +28,24 @@ pub(crate) struct Attribute {
 
 /// An element as written in the text.
 #[derive(Debug)]
-pub(crate) struct Element {
+pub(crate) struct XmlElement {
     pub(crate) name: String,
     /// Bytes of the name in the start tag.
     pub(crate) span: Range<usize>,
     pub(crate) namespace: bool,
-    pub(crate) attributes: Vec<Attribute>,
+    pub(crate) attributes: Vec<XmlAttribute>,
     pub(crate) children: Vec<usize>,
 }
 
-impl Element {
+impl XmlElement {
     /// The value of an attribute.
-    pub(crate) fn attribute(&self, name: &str) -> Option<&Attribute> {
+    pub(crate) fn attribute(&self, name: &str) -> Option<&XmlAttribute> {
         self.attributes.iter().find(|a| a.name == name && !a.namespace)
     }
 }
 
 /// Prints elements as text. The contents of an `include` replace it.
-pub(crate) fn print(list: &[Element], root: usize) -> String {
+pub(crate) fn print(list: &[XmlElement], root: usize) -> String {
     enum XmlPart {
         Start(usize),
         End(usize),
@@ -94,7 +94,7 @@ fn escaped(value: &str) -> String {
 pub(crate) fn parse(
     prepared: &Prepared,
     base: usize,
-    list: &mut Vec<Element>,
+    list: &mut Vec<XmlElement>,
     report: &mut Diagnostics,
 ) -> Option<usize> {
     let text = &*prepared.text;
@@ -120,12 +120,12 @@ pub(crate) fn parse(
     Some(root)
 }
 
-fn element(prepared: &Prepared, base: usize, xml: &Node) -> Element {
+fn element(prepared: &Prepared, base: usize, xml: &Node) -> XmlElement {
     let text = &*prepared.text;
     let shifted = |span: Range<usize>| base + prepared.written(span.start)..base + prepared.written(span.end);
     let name = xml.tag_name();
     let start = base + prepared.written(xml.range().start + 1);
-    let attribute = |a: roxmltree::Attribute| Attribute {
+    let attribute = |a: roxmltree::Attribute| XmlAttribute {
         name: a.name().to_string(),
         value: a.value().to_string(),
         name_span: shifted(a.range_qname()),
@@ -133,7 +133,7 @@ fn element(prepared: &Prepared, base: usize, xml: &Node) -> Element {
         exact: text.get(a.range_value()) == Some(a.value()),
         namespace: a.namespace().is_some(),
     };
-    Element {
+    XmlElement {
         name: name.name().to_string(),
         span: start..start + name.name().len(),
         namespace: name.namespace().is_some(),

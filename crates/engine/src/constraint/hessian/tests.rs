@@ -148,7 +148,7 @@ fn islands_keep_their_layouts() {
         directions += d.solver_niter;
     }
     let solver = &s.constraint.solver;
-    let all = solver.apart.iter().chain([&solver.hessian]);
+    let all = solver.island_hessians.iter().chain([&solver.hessian]);
     let (laid_out, found) = (all.map(|h| h.laid_out).sum::<usize>(), s.constraint.islands.found as usize);
     assert!(d.nisland == 3 && directions >= 150 && found < 25, "{directions} directions, found {found}");
     assert!(laid_out <= 3 * found, "{laid_out} layouts of islands that were found {found} times");

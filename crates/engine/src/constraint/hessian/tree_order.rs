@@ -2,13 +2,13 @@
 //! the island (Cuthill and McKee 1969), numbered in reverse (George 1971).
 
 use crate::constraint::island::Islands;
-use crate::constraint::jacobian::Jacobian;
+use crate::constraint::jacobian::ConstraintJacobian;
 use crate::math::sort::sort;
 use crate::model::Model;
 
 /// Scratch for ordering trees.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Order {
+pub(super) struct TreeOrder {
     /// Pairs of trees that a block connects, in both directions, ascending, and the start of those of each tree.
     pairs: Vec<[u32; 2]>,
     begin: Vec<u32>,
@@ -17,9 +17,9 @@ pub(super) struct Order {
     seen: Vec<bool>,
 }
 
-impl Order {
+impl TreeOrder {
     /// Orders the trees of an island breadth first, starting at a tree far from the others, and reverses the order.
-    pub(super) fn sort(&mut self, m: &Model, jac: &Jacobian, islands: &Islands, island: usize) {
+    pub(super) fn sort(&mut self, m: &Model, jac: &ConstraintJacobian, islands: &Islands, island: usize) {
         self.tie(m, jac, islands, island);
         let trees = || islands.trees_of(island);
         let degree = |begin: &[u32], t: usize| begin[t + 1] - begin[t];
@@ -40,7 +40,7 @@ impl Order {
     }
 
     /// Lists the pairs of trees that blocks connect.
-    fn tie(&mut self, m: &Model, jac: &Jacobian, islands: &Islands, island: usize) {
+    fn tie(&mut self, m: &Model, jac: &ConstraintJacobian, islands: &Islands, island: usize) {
         self.pairs.clear();
         for i in islands.blocks.members(island) {
             let trees = jac.trees(m, &jac.blocks[i]);

@@ -13,14 +13,14 @@
 //! All quantities are expressed about the centre of mass of the tree, like `cdof` and `cinert`, so no transformations
 //! between bodies are needed.
 
-use super::{Assignment, Damped, Factors, NOTHING, Row};
-use crate::dynamics::{Scratch, mass, reflected};
+use super::{AlgorithmRow, Assignment, Damped, Factors, NOTHING};
+use crate::dynamics::{DynamicsScratch, mass, reflected};
 use crate::math::*;
 use crate::model::plan::PlanFlag;
 use crate::model::{Fields, Model};
 use std::ops::Range;
 
-pub(super) const ROW: Row = Row {
+pub(super) const ROW: AlgorithmRow = AlgorithmRow {
     name: "articulated",
     covers,
     factors: Some(Factors {
@@ -44,20 +44,20 @@ type PaddedSpatial = [f64; 8];
 /// The trees of this algorithm, with scratch.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Trees {
-    spans: Vec<Span>,
+    spans: Vec<TreeSpan>,
     /// Whether no tendon has inertia. The inertia of tendons can couple bodies of a tree; trees are then solved with
     /// the rows of M.
     untied: bool,
-    links: Vec<Link>,
+    links: Vec<ArticulatedLink>,
     /// One entry for each body, and one for each degree of freedom. Each has two parts: one for M, one for M with an
     /// addition to its diagonal.
-    bodies: Vec<[Body; 2]>,
-    joints: Vec<[Joint; 2]>,
+    bodies: Vec<[ArticulatedBody; 2]>,
+    joints: Vec<[ArticulatedJoint; 2]>,
 }
 
 /// A tree: its degrees of freedom and its bodies.
 #[derive(Clone, Debug, Default, PartialEq)]
-struct Span {
+struct TreeSpan {
     dofs: Range<usize>,
     bodies: Range<usize>,
     /// Bodies without degrees of freedom, the last first: body and parent.
@@ -66,7 +66,7 @@ struct Span {
 
 /// The position of a degree of freedom in its tree.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Link {
+struct ArticulatedLink {
     /// The body that it moves.
     body: usize,
     /// The moving body that carries `body`, for the first degree of freedom of a body that is not the root.
@@ -76,7 +76,7 @@ struct Link {
 
 /// Articulated inertia and force of a body with its children, and its acceleration.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Body {
+struct ArticulatedBody {
     inertia: [PaddedSpatial; 6],
     force: PaddedSpatial,
     acceleration: PaddedSpatial,
@@ -85,7 +85,7 @@ struct Body {
 /// U and 1/D, the addition of the joint to the diagonal of the matrix, and an element of the vector that is solved
 /// for.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Joint {
+struct ArticulatedJoint {
     u: PaddedSpatial,
     inv: f64,
     diagonal: f64,
@@ -94,8 +94,8 @@ struct Joint {
 
 /// The inputs of the passes over a tree.
 struct Passes<'a> {
-    span: &'a Span,
-    links: &'a [Link],
+    span: &'a TreeSpan,
+    links: &'a [ArticulatedLink],
     cdof: &'a [Spatial],
 }
 
@@ -114,21 +114,21 @@ impl Trees {
             let end = (root..m.nbody).find(|&b| m.body_treeid[b] != tree as i32).unwrap_or(m.nbody);
             let still = |&b: &usize| m.body_dofnum[b] == 0;
             let fixed = (root..end).rev().filter(still).map(|b| (b, m.body_parentid[b] as usize));
-            Span { dofs, bodies: root..end, fixed: fixed.collect() }
+            TreeSpan { dofs, bodies: root..end, fixed: fixed.collect() }
         };
         let (bodies, joints) = if assignment.factors.is_empty() { (0, 0) } else { (m.nbody, m.nv) };
         let link = |k: usize| {
             let body = m.dof_bodyid[k] as usize;
             let first = m.body_dofadr[body] == k as i32;
             let carrier = usize::try_from(m.dof_parentid[k]).ok().map(|up| m.dof_bodyid[up] as usize);
-            Link { body, carrier: carrier.filter(|_| first), first }
+            ArticulatedLink { body, carrier: carrier.filter(|_| first), first }
         };
         Trees {
             spans: assignment.factors.iter().map(span).collect(),
             untied: true,
             links: (0..joints).map(link).collect(),
-            bodies: vec![[Body::default(); 2]; bodies],
-            joints: vec![[Joint::default(); 2]; joints],
+            bodies: vec![[ArticulatedBody::default(); 2]; bodies],
+            joints: vec![[ArticulatedJoint::default(); 2]; joints],
         }
     }
 }
@@ -141,8 +141,8 @@ impl Passes<'_> {
     fn factor<const A: usize, const B: usize, const X: bool>(
         &self,
         cinert: &[Inertia],
-        bodies: &mut [[Body; 2]],
-        joints: &mut [[Joint; 2]],
+        bodies: &mut [[ArticulatedBody; 2]],
+        joints: &mut [[ArticulatedJoint; 2]],
     ) -> Option<usize> {
         let range = self.span.bodies.clone();
         for (body, inertia) in bodies[range.clone()].iter_mut().zip(&cinert[range]) {
@@ -181,7 +181,11 @@ impl Passes<'_> {
 
     /// x ← M⁻¹ x.
     #[cfg_attr(not(feature = "small"), inline(always))]
-    fn solve<const A: usize, const B: usize>(&self, bodies: &mut [[Body; 2]], joints: &mut [[Joint; 2]]) {
+    fn solve<const A: usize, const B: usize>(
+        &self,
+        bodies: &mut [[ArticulatedBody; 2]],
+        joints: &mut [[ArticulatedJoint; 2]],
+    ) {
         for body in &mut bodies[self.span.bodies.clone()] {
             for body in &mut body[A..B] {
                 body.force = [0.0; 8];
@@ -199,8 +203,8 @@ impl Passes<'_> {
     #[inline(never)]
     fn outward_pass<const A: usize, const B: usize>(
         &self,
-        bodies: &mut [[Body; 2]],
-        joints: &mut [[Joint; 2]],
+        bodies: &mut [[ArticulatedBody; 2]],
+        joints: &mut [[ArticulatedJoint; 2]],
     ) {
         let dofs = self.span.dofs.clone();
         let links = self.links[dofs.clone()].iter().zip(&self.cdof[dofs.clone()]);
@@ -223,10 +227,10 @@ impl Passes<'_> {
 /// One degree of freedom of the inward pass: subtracts the force that its joint takes up, and passes on the rest.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn inward_pass<const A: usize, const B: usize>(
-    bodies: &mut [[Body; 2]],
-    link: &Link,
+    bodies: &mut [[ArticulatedBody; 2]],
+    link: &ArticulatedLink,
     s: &Spatial,
-    joint: &mut [Joint; 2],
+    joint: &mut [ArticulatedJoint; 2],
 ) {
     let here = &mut bodies[link.body];
     let mut forces = [[0.0; 8]; 2];
@@ -246,16 +250,16 @@ fn inward_pass<const A: usize, const B: usize>(
 /// A body, and the parent body that carries it, which precedes it.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn with_carrier(
-    bodies: &mut [[Body; 2]],
+    bodies: &mut [[ArticulatedBody; 2]],
     body: usize,
     carrier: usize,
-) -> Option<(&[Body; 2], &mut [Body; 2])> {
+) -> Option<(&[ArticulatedBody; 2], &mut [ArticulatedBody; 2])> {
     let (above, rest) = bodies.split_at_mut(body);
     Some((rest.first()?, above.get_mut(carrier)?))
 }
 
 #[inline(never)] // so that scenes with small trees do not execute its setup code; the same applies below
-fn factor(m: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
+fn factor(m: &Model, d: &mut Fields, w: &mut DynamicsScratch) -> Option<usize> {
     let bad = prepare(m, d, w, None);
     w.rows_due = d.plan.has(PlanFlag::MassForRows);
     if !w.rows_due {
@@ -265,13 +269,13 @@ fn factor(m: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
 }
 
 #[inline(never)]
-fn factor_and_solve(m: &Model, d: &mut Fields, w: &mut Scratch, x: &mut [f64]) -> Option<usize> {
+fn factor_and_solve(m: &Model, d: &mut Fields, w: &mut DynamicsScratch, x: &mut [f64]) -> Option<usize> {
     prepare(m, d, w, Some(x))
 }
 
 /// Computes U and 1/D for solving with M. With `x`, also x ← M⁻¹ x.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn prepare(m: &Model, d: &mut Fields, w: &mut Scratch, mut x: Option<&mut [f64]>) -> Option<usize> {
+fn prepare(m: &Model, d: &mut Fields, w: &mut DynamicsScratch, mut x: Option<&mut [f64]>) -> Option<usize> {
     let articulated = &mut w.algorithms.articulated;
     articulated.untied = m.ntendon == 0 || !reflected::tendons_have_inertia(m);
     let Trees { spans, untied, links, bodies, joints } = articulated;
@@ -307,7 +311,7 @@ fn prepare(m: &Model, d: &mut Fields, w: &mut Scratch, mut x: Option<&mut [f64]>
 }
 
 #[inline(never)]
-fn solve_both(m: &Model, d: &mut Fields, w: &mut Scratch, (b, x, y): Damped<'_>) -> Option<usize> {
+fn solve_both(m: &Model, d: &mut Fields, w: &mut DynamicsScratch, (b, x, y): Damped<'_>) -> Option<usize> {
     let articulated = &mut w.algorithms.articulated;
     articulated.untied = m.ntendon == 0 || !reflected::tendons_have_inertia(m);
     let Trees { spans, untied, links, bodies, joints } = articulated;
@@ -342,7 +346,7 @@ fn solve_both(m: &Model, d: &mut Fields, w: &mut Scratch, (b, x, y): Damped<'_>)
 
 /// Copies a vector to the joints, for matrix `I`.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn put<const I: usize>(joints: &mut [[Joint; 2]], dofs: Range<usize>, x: &[f64]) {
+fn put<const I: usize>(joints: &mut [[ArticulatedJoint; 2]], dofs: Range<usize>, x: &[f64]) {
     for (joint, x) in joints[dofs.clone()].iter_mut().zip(&x[dofs]) {
         joint[I].x = *x;
     }
@@ -350,7 +354,7 @@ fn put<const I: usize>(joints: &mut [[Joint; 2]], dofs: Range<usize>, x: &[f64])
 
 /// Copies the vector of matrix `I` from the joints.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn get<const I: usize>(joints: &[[Joint; 2]], dofs: Range<usize>, x: &mut [f64]) {
+fn get<const I: usize>(joints: &[[ArticulatedJoint; 2]], dofs: Range<usize>, x: &mut [f64]) {
     for (x, joint) in x[dofs.clone()].iter_mut().zip(&joints[dofs]) {
         *x = joint[I].x;
     }
@@ -358,14 +362,14 @@ fn get<const I: usize>(joints: &[[Joint; 2]], dofs: Range<usize>, x: &mut [f64])
 
 /// Computes the rows of `qLD`, and `qLDiagInv`.
 #[inline(never)]
-fn rows_of_factor(m: &Model, d: &mut Fields, w: &mut Scratch) {
+fn rows_of_factor(m: &Model, d: &mut Fields, w: &mut DynamicsScratch) {
     let Trees { spans, untied, joints, .. } = &w.algorithms.articulated;
     if !*untied {
         return;
     }
     let cdof = rows::<6>(&d.cdof);
     for k in spans.iter().flat_map(|span| span.dofs.clone()) {
-        let Joint { u, inv, .. } = &joints[k][0];
+        let ArticulatedJoint { u, inv, .. } = &joints[k][0];
         d.qLDiagInv[k] = *inv;
         let row = &mut d.qLD[mass::row(m, k)];
         let depth = row.len() - 1;
@@ -376,7 +380,7 @@ fn rows_of_factor(m: &Model, d: &mut Fields, w: &mut Scratch) {
 }
 
 #[inline(never)]
-fn solve(m: &Model, d: &Fields, w: &mut Scratch, x: &mut [f64]) {
+fn solve(m: &Model, d: &Fields, w: &mut DynamicsScratch, x: &mut [f64]) {
     let Trees { spans, untied, links, bodies, joints } = &mut w.algorithms.articulated;
     for span in spans.iter() {
         if *untied {
@@ -390,7 +394,7 @@ fn solve(m: &Model, d: &Fields, w: &mut Scratch, x: &mut [f64]) {
 }
 
 #[inline(never)]
-fn solve_with(m: &Model, d: &Fields, w: &mut Scratch, b: &[f64], x: &mut [f64]) {
+fn solve_with(m: &Model, d: &Fields, w: &mut DynamicsScratch, b: &[f64], x: &mut [f64]) {
     let Trees { spans, untied, links, bodies, joints } = &mut w.algorithms.articulated;
     for span in spans.iter() {
         let dofs = span.dofs.clone();
@@ -456,7 +460,7 @@ fn add_to(a: &mut [PaddedSpatial; 6], b: &[PaddedSpatial; 6]) {
 
 /// Computes U and D of the degree of freedom s of a joint, and I ← I - U Uᵀ / D. Returns whether D is not positive.
 #[inline(never)] // inlined into a loop, it would not be vectorized by lanes
-fn eliminate(i: &mut [PaddedSpatial; 6], s: &Spatial, joint: &mut Joint) -> bool {
+fn eliminate(i: &mut [PaddedSpatial; 6], s: &Spatial, joint: &mut ArticulatedJoint) -> bool {
     // Three short independent sums, because the next degree of freedom waits for U.
     let part = |c: usize| add_scaled(scale(i[c], s[c]), i[c + 1], s[c + 1]);
     let u = add(add(part(0), part(2)), part(4));

@@ -2,15 +2,15 @@
 //!
 //! M is diagonal and constant. The bias force has a closed form: weight for translations, ω × I ω for rotations.
 
-use super::{Assignment, Forces, NOTHING, Row};
-use crate::dynamics::Scratch;
+use super::{AlgorithmRow, Assignment, Forces, NOTHING};
+use crate::dynamics::DynamicsScratch;
 use crate::kinds::joint;
 use crate::math::*;
 use crate::model::reflect::model as fields_of;
 use crate::model::{Fields, Model};
 use std::ops::Range;
 
-pub(super) const ROW: Row = Row {
+pub(super) const ROW: AlgorithmRow = AlgorithmRow {
     name: "diagonal_inertia",
     covers,
     copies: &[fields_of::body_mass, fields_of::body_inertia],
@@ -44,7 +44,7 @@ fn slides(m: &Model, tree: usize) -> bool {
 /// Joints and degrees of freedom of the simple bodies.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Trees {
-    joints: Vec<Joint>,
+    joints: Vec<SimpleJoint>,
     dofs: Vec<Range<usize>>,
 }
 
@@ -54,12 +54,12 @@ impl Trees {
         let mut joints: Vec<usize> =
             dofs.iter().cloned().flatten().map(|dof| m.dof_jntid[dof] as usize).collect();
         joints.dedup();
-        Trees { joints: joints.into_iter().map(|joint| Joint::new(m, joint)).collect(), dofs }
+        Trees { joints: joints.into_iter().map(|joint| SimpleJoint::new(m, joint)).collect(), dofs }
     }
 }
 
 /// Copies the constant diagonal.
-fn mass(m: &Model, d: &mut Fields, w: &mut Scratch) {
+fn mass(m: &Model, d: &mut Fields, w: &mut DynamicsScratch) {
     for i in w.algorithms.diagonal_inertia.dofs.iter().cloned().flatten() {
         d.M[m.M_rowadr[i] as usize] = m.dof_M0[i];
     }
@@ -67,7 +67,7 @@ fn mass(m: &Model, d: &mut Fields, w: &mut Scratch) {
 
 /// A joint of a simple body.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Joint {
+struct SimpleJoint {
     joint: usize,
     kind: i32,
     body: usize,
@@ -77,11 +77,11 @@ struct Joint {
     inertia: Vec3,
 }
 
-impl Joint {
-    fn new(m: &Model, joint: usize) -> Joint {
+impl SimpleJoint {
+    fn new(m: &Model, joint: usize) -> SimpleJoint {
         let body = m.jnt_bodyid[joint] as usize;
         let (kind, dof) = (m.jnt_type[joint], m.jnt_dofadr[joint] as usize);
-        let mut joint = Joint { joint, kind, body, dof, mass: 0.0, inertia: [0.0; 3] };
+        let mut joint = SimpleJoint { joint, kind, body, dof, mass: 0.0, inertia: [0.0; 3] };
         joint.load(m);
         joint
     }
@@ -92,7 +92,7 @@ impl Joint {
 }
 
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn bias(_: &Model, d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
+fn bias(_: &Model, d: &mut Fields, w: &mut DynamicsScratch, gravity: Vec3) {
     for joint in &w.algorithms.diagonal_inertia.joints {
         bias_of(d, joint, gravity);
     }
@@ -106,7 +106,7 @@ pub(crate) fn gyroscopic_jacobian([a, b, c]: Vec3, [x, y, z]: Vec3) -> [Vec3; 3]
 /// Computes the bias force for one joint of a simple body: weight for translations, ω × I ω in the frame of the body
 /// for rotations. It is zero for a hinge, which rotates about a principal axis.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn bias_of(d: &mut Fields, s: &Joint, gravity: Vec3) {
+fn bias_of(d: &mut Fields, s: &SimpleJoint, gravity: Vec3) {
     let (mass, [a, b, c]) = (s.mass, s.inertia);
     let turning = |w: Vec3| cross(w, [a * w[0], b * w[1], c * w[2]]);
     let (Some(v), Some(out)) = (d.qvel.get(s.dof..), d.qfrc_bias.get_mut(s.dof..)) else {

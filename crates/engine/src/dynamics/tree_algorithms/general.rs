@@ -4,15 +4,15 @@
 //! each degree of freedom, and is factorized by elimination (`mass`). The bias force is computed by recursion
 //! (`rne`).
 
-use super::{Assignment, Damped, Factors, Forces, PoseFunctions, Row};
+use super::{AlgorithmRow, Assignment, Damped, Factors, Forces, PoseFunctions};
 use crate::dynamics::kinematics::{self, Frames};
-use crate::dynamics::{Scratch, mass as rows, rne};
+use crate::dynamics::{DynamicsScratch, mass as rows, rne};
 use crate::math::Vec3;
 use crate::model::plan::PlanFlag;
 use crate::model::{Fields, Model};
 use std::ops::Range;
 
-pub(super) const ROW: Row = Row {
+pub(super) const ROW: AlgorithmRow = AlgorithmRow {
     name: "general",
     covers: |_, _| true,
     copies: &kinematics::FIELDS,
@@ -68,30 +68,30 @@ fn spans(m: &Model, trees: &[usize]) -> Vec<Range<usize>> {
 }
 
 /// The parameters of all bodies.
-pub(super) fn frames(w: &mut Scratch) -> &mut Frames {
+pub(super) fn frames(w: &mut DynamicsScratch) -> &mut Frames {
     &mut w.algorithms.general.frames
 }
 
-fn forward_kinematics(_: &Model, d: &mut Fields, w: &mut Scratch) {
+fn forward_kinematics(_: &Model, d: &mut Fields, w: &mut DynamicsScratch) {
     kinematics::bodies(d, &mut w.algorithms.general.frames);
 }
 
-fn orientations(d: &mut Fields, w: &mut Scratch) {
+fn orientations(d: &mut Fields, w: &mut DynamicsScratch) {
     kinematics::orientations(d, &w.algorithms.general.frames);
 }
 
-fn mass(m: &Model, d: &mut Fields, w: &mut Scratch) {
+fn mass(m: &Model, d: &mut Fields, w: &mut DynamicsScratch) {
     rows::composite_inertia(m, d, &mut w.path, &w.algorithms.general.forces);
 }
 
-fn bias(m: &Model, d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
+fn bias(m: &Model, d: &mut Fields, w: &mut DynamicsScratch, gravity: Vec3) {
     if d.plan.has(PlanFlag::Recursion) {
         rne::newton_euler(m, d, w, gravity);
     }
 }
 
 #[inline(never)] // so that scenes with small trees do not execute its setup code; the same applies below
-fn factor(m: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
+fn factor(m: &Model, d: &mut Fields, w: &mut DynamicsScratch) -> Option<usize> {
     let mut bad = None;
     for dofs in w.algorithms.general.factors.iter().cloned() {
         bad = bad.or(rows::factor_copy(m, &d.M, &mut d.qLD, &mut d.qLDiagInv, dofs));
@@ -100,21 +100,21 @@ fn factor(m: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
 }
 
 #[inline(never)]
-fn solve(m: &Model, d: &Fields, w: &mut Scratch, x: &mut [f64]) {
+fn solve(m: &Model, d: &Fields, w: &mut DynamicsScratch, x: &mut [f64]) {
     for dofs in w.algorithms.general.factors.iter().cloned() {
         rows::solve(m, &d.qLD, &d.qLDiagInv, x, dofs);
     }
 }
 
 #[inline(never)]
-fn solve_with(m: &Model, d: &Fields, w: &mut Scratch, b: &[f64], x: &mut [f64]) {
+fn solve_with(m: &Model, d: &Fields, w: &mut DynamicsScratch, b: &[f64], x: &mut [f64]) {
     for dofs in w.algorithms.general.factors.iter().cloned() {
         rows::solve_with(m, &d.M, b, [&mut w.ld, &mut w.diag_inv], dofs, x);
     }
 }
 
 #[inline(never)]
-fn factor_and_solve(m: &Model, d: &mut Fields, w: &mut Scratch, x: &mut [f64]) -> Option<usize> {
+fn factor_and_solve(m: &Model, d: &mut Fields, w: &mut DynamicsScratch, x: &mut [f64]) -> Option<usize> {
     let mut bad = None;
     for dofs in w.algorithms.general.factors.iter().cloned() {
         bad = bad.or(rows::factor_copy(m, &d.M, &mut d.qLD, &mut d.qLDiagInv, dofs.clone()));
@@ -124,7 +124,7 @@ fn factor_and_solve(m: &Model, d: &mut Fields, w: &mut Scratch, x: &mut [f64]) -
 }
 
 #[inline(never)]
-fn solve_both(m: &Model, d: &mut Fields, w: &mut Scratch, (b, x, y): Damped<'_>) -> Option<usize> {
+fn solve_both(m: &Model, d: &mut Fields, w: &mut DynamicsScratch, (b, x, y): Damped<'_>) -> Option<usize> {
     solve_with(m, d, w, b, y);
     factor_and_solve(m, d, w, x)
 }

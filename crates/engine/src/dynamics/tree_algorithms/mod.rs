@@ -18,7 +18,7 @@
 //! specialized algorithm can be disabled ([`TreeAlgorithms`]). `tests/tree_algorithms.rs` does so for each row and
 //! compares it with the general algorithm. `docs/measured/speed.md` lists the measured speedup of each.
 
-use super::Scratch;
+use super::DynamicsScratch;
 use crate::kinds::disable;
 use crate::math::Vec3;
 use crate::model::reflect::FieldId;
@@ -28,7 +28,7 @@ use crate::model::{Fields, Model};
 /// Generates the table from its rows. Each row is a module with `ROW` and `Trees`.
 macro_rules! table {
     ($($algorithm:ident)*) => {
-        static TABLE: [Row; [$(stringify!($algorithm)),*].len()] = [$($algorithm::ROW),*];
+        static TABLE: [AlgorithmRow; [$(stringify!($algorithm)),*].len()] = [$($algorithm::ROW),*];
 
         /// State of each algorithm, and which algorithms have trees.
         #[derive(Clone, Debug, Default, PartialEq)]
@@ -72,14 +72,14 @@ table! {
 pub(crate) use diagonal_inertia::gyroscopic_jacobian;
 
 /// An algorithm.
-struct Row {
+struct AlgorithmRow {
     /// Its name in `labspec bench`.
     name: &'static str,
     /// Whether it supports a tree.
     covers: fn(&Model, usize) -> bool,
     /// Fields of the model that its state has copies of, and the function that reads them again.
     copies: &'static [FieldId],
-    load: fn(&Model, &mut Scratch),
+    load: fn(&Model, &mut DynamicsScratch),
     /// The parts that it computes; `None` for the others.
     places: Option<PoseFunctions>,
     forces: Option<Forces>,
@@ -87,7 +87,7 @@ struct Row {
 }
 
 /// An algorithm that computes nothing: the base of rows, which set what differs.
-const NOTHING: Row = Row {
+const NOTHING: AlgorithmRow = AlgorithmRow {
     name: "",
     covers: |_, _| false,
     copies: &[],
@@ -100,17 +100,17 @@ const NOTHING: Row = Row {
 /// Computes the poses of bodies.
 struct PoseFunctions {
     /// `xpos xmat xipos ximat xanchor xaxis`.
-    forward_kinematics: fn(&Model, &mut Fields, &mut Scratch),
+    forward_kinematics: fn(&Model, &mut Fields, &mut DynamicsScratch),
     /// `xquat`, after `forward_kinematics`.
-    orientations: fn(&mut Fields, &mut Scratch),
+    orientations: fn(&mut Fields, &mut DynamicsScratch),
 }
 
 /// Computes M and the bias force.
 struct Forces {
     /// The rows of M.
-    mass: fn(&Model, &mut Fields, &mut Scratch),
+    mass: fn(&Model, &mut Fields, &mut DynamicsScratch),
     /// Computes `qfrc_bias` for an acceleration of gravity.
-    bias: fn(&Model, &mut Fields, &mut Scratch, Vec3),
+    bias: fn(&Model, &mut Fields, &mut DynamicsScratch, Vec3),
     /// Whether the bias force of a tree depends on the poses of its bodies.
     bias_uses_poses: fn(&Model, usize) -> bool,
     /// Whether M of a tree is diagonal and constant.
@@ -125,17 +125,17 @@ struct Factors {
     /// Whether it does not read M.
     without_mass: bool,
     /// Computes `qLD` and `qLDiagInv`. It may leave this to `complete` if only constraints read them.
-    factor: fn(&Model, &mut Fields, &mut Scratch) -> Option<usize>,
+    factor: fn(&Model, &mut Fields, &mut DynamicsScratch) -> Option<usize>,
     /// Computes what `factor` deferred.
-    complete: fn(&Model, &mut Fields, &mut Scratch),
+    complete: fn(&Model, &mut Fields, &mut DynamicsScratch),
     /// x ← M⁻¹ x, using the result of `factor`.
-    solve: fn(&Model, &Fields, &mut Scratch, &mut [f64]),
+    solve: fn(&Model, &Fields, &mut DynamicsScratch, &mut [f64]),
     /// x ← (M + B)⁻¹ x for a diagonal matrix B (nv), after `factor`.
-    solve_with: fn(&Model, &Fields, &mut Scratch, &[f64], &mut [f64]),
+    solve_with: fn(&Model, &Fields, &mut DynamicsScratch, &[f64], &mut [f64]),
     /// Factorizes and solves x ← M⁻¹ x at once, if `qLD` is not read.
-    factor_and_solve: fn(&Model, &mut Fields, &mut Scratch, &mut [f64]) -> Option<usize>,
+    factor_and_solve: fn(&Model, &mut Fields, &mut DynamicsScratch, &mut [f64]) -> Option<usize>,
     /// Factorizes and solves x ← M⁻¹ x and y ← (M + B)⁻¹ y at once, if `qLD` is not read.
-    solve_both: fn(&Model, &mut Fields, &mut Scratch, Damped<'_>) -> Option<usize>,
+    solve_both: fn(&Model, &mut Fields, &mut DynamicsScratch, Damped<'_>) -> Option<usize>,
 }
 
 /// B, x and y.
@@ -187,7 +187,12 @@ const GENERAL: usize = TABLE.len() - 1;
 const _: () = assert!(TABLE.len() <= u8::BITS as usize);
 
 /// The row that a tree uses for the part that `computes` tests.
-fn row_of(m: &Model, algorithms: TreeAlgorithms, tree: usize, computes: impl Fn(&Row) -> bool) -> usize {
+fn row_of(
+    m: &Model,
+    algorithms: TreeAlgorithms,
+    tree: usize,
+    computes: impl Fn(&AlgorithmRow) -> bool,
+) -> usize {
     let takes = |i: &usize| {
         algorithms.has(TreeAlgorithm(*i as u8))
             && !m.tree_dofs(tree).is_empty()
@@ -272,7 +277,7 @@ pub fn copied() -> impl Iterator<Item = FieldId> {
 
 /// Reads the parameters of all algorithms from the model: when data are created, and after a field that they have
 /// copies of was written.
-pub fn load(m: &Model, w: &mut Scratch) {
+pub fn load(m: &Model, w: &mut DynamicsScratch) {
     TABLE.iter().for_each(|row| (row.load)(m, w));
 }
 
@@ -288,7 +293,7 @@ pub(crate) fn are_chains(m: &Model, trees: &[i32]) -> bool {
 }
 
 /// Whether some trees compute their rows of M only when they are read.
-pub(crate) fn defers_mass_rows(w: &Scratch) -> bool {
+pub(crate) fn defers_mass_rows(w: &DynamicsScratch) -> bool {
     !w.algorithms.planar_chain.is_empty()
 }
 
@@ -311,71 +316,77 @@ macro_rules! each {
 
 /// Computes the poses of bodies and joints: `xpos xmat xipos ximat xanchor xaxis`.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(crate) fn forward_kinematics(m: &Model, d: &mut Fields, w: &mut Scratch) {
-    each!(w, places, |_algorithm, row, of| (of.forward_kinematics)(m, d, w));
+pub(crate) fn forward_kinematics(m: &Model, d: &mut Fields, w: &mut DynamicsScratch) {
+    each!(w, places, |_algorithm, row, functions| (functions.forward_kinematics)(m, d, w));
 }
 
 /// Computes the orientations of bodies as quaternions, `xquat`, after [`forward_kinematics`].
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(crate) fn orientations(d: &mut Fields, w: &mut Scratch) {
-    each!(w, places, |_algorithm, row, of| (of.orientations)(d, w));
+pub(crate) fn orientations(d: &mut Fields, w: &mut DynamicsScratch) {
+    each!(w, places, |_algorithm, row, functions| (functions.orientations)(d, w));
 }
 
 /// Computes `M`. `general` selects whether this includes the rows of the general algorithm, and `rows` the rows of
 /// algorithms that can defer them.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(crate) fn mass(m: &Model, d: &mut Fields, w: &mut Scratch, general: bool, rows: bool) {
-    w.rows_wanted = rows;
-    each!(w, forces, |algorithm, row, of| {
+pub(crate) fn mass(m: &Model, d: &mut Fields, w: &mut DynamicsScratch, general: bool, rows: bool) {
+    w.needs_mass_rows = rows;
+    each!(w, forces, |algorithm, row, functions| {
         if algorithm.0 != GENERAL as u8 || general {
-            (of.mass)(m, d, w);
+            (functions.mass)(m, d, w);
         }
     });
 }
 
 /// Computes `qfrc_bias`: gravity, Coriolis and centrifugal forces.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(crate) fn bias(m: &Model, d: &mut Fields, w: &mut Scratch) {
+pub(crate) fn bias(m: &Model, d: &mut Fields, w: &mut DynamicsScratch) {
     let gravity = if m.opt.disabled(disable::GRAVITY) { [0.0; 3] } else { m.opt.gravity };
-    each!(w, forces, |_algorithm, row, of| (of.bias)(m, d, w, gravity));
+    each!(w, forces, |_algorithm, row, functions| (functions.bias)(m, d, w, gravity));
 }
 
 /// Computes `qLD` and `qLDiagInv`, the factorization of M. Returns the first degree of freedom whose D is not
 /// positive, like the functions below.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(crate) fn factor(m: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
+pub(crate) fn factor(m: &Model, d: &mut Fields, w: &mut DynamicsScratch) -> Option<usize> {
     let mut bad = None;
-    each!(w, factors, |_algorithm, row, of| bad = first(bad, (of.factor)(m, d, w)));
+    each!(w, factors, |_algorithm, row, functions| bad = first(bad, (functions.factor)(m, d, w)));
     bad
 }
 
 /// Computes the part of `qLD` and `qLDiagInv` that [`factor`] deferred, for constraints that read it. Few steps need
 /// it.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(crate) fn complete(m: &Model, d: &mut Fields, w: &mut Scratch) {
+pub(crate) fn complete(m: &Model, d: &mut Fields, w: &mut DynamicsScratch) {
     if w.rows_due {
         w.rows_due = false;
-        each!(w, factors, |_algorithm, row, of| (of.complete)(m, d, w));
+        each!(w, factors, |_algorithm, row, functions| (functions.complete)(m, d, w));
     }
 }
 
 /// x ← M⁻¹ x, using the result of [`factor`].
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(crate) fn solve(m: &Model, d: &Fields, w: &mut Scratch, x: &mut [f64]) {
-    each!(w, factors, |_algorithm, row, of| (of.solve)(m, d, w, x));
+pub(crate) fn solve(m: &Model, d: &Fields, w: &mut DynamicsScratch, x: &mut [f64]) {
+    each!(w, factors, |_algorithm, row, functions| (functions.solve)(m, d, w, x));
 }
 
 /// x ← (M + B)⁻¹ x for a diagonal matrix B (nv), after [`factor`].
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(crate) fn solve_with(m: &Model, d: &Fields, w: &mut Scratch, b: &[f64], x: &mut [f64]) {
-    each!(w, factors, |_algorithm, row, of| (of.solve_with)(m, d, w, b, x));
+pub(crate) fn solve_with(m: &Model, d: &Fields, w: &mut DynamicsScratch, b: &[f64], x: &mut [f64]) {
+    each!(w, factors, |_algorithm, row, functions| (functions.solve_with)(m, d, w, b, x));
 }
 
 /// Factorizes and solves x ← M⁻¹ x at once, without a call of [`factor`].
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(crate) fn factor_and_solve(m: &Model, d: &mut Fields, w: &mut Scratch, x: &mut [f64]) -> Option<usize> {
+pub(crate) fn factor_and_solve(
+    m: &Model,
+    d: &mut Fields,
+    w: &mut DynamicsScratch,
+    x: &mut [f64],
+) -> Option<usize> {
     let mut bad = None;
-    each!(w, factors, |_algorithm, row, of| bad = first(bad, (of.factor_and_solve)(m, d, w, x)));
+    each!(w, factors, |_algorithm, row, functions| bad =
+        first(bad, (functions.factor_and_solve)(m, d, w, x)));
     bad
 }
 
@@ -385,14 +396,14 @@ pub(crate) fn factor_and_solve(m: &Model, d: &mut Fields, w: &mut Scratch, x: &m
 pub(crate) fn solve_both(
     m: &Model,
     d: &mut Fields,
-    w: &mut Scratch,
+    w: &mut DynamicsScratch,
     b: &[f64],
     x: &mut [f64],
     y: &mut [f64],
 ) -> Option<usize> {
     let mut bad = None;
-    each!(w, factors, |_algorithm, row, of| bad =
-        first(bad, (of.solve_both)(m, d, w, (b, &mut *x, &mut *y))));
+    each!(w, factors, |_algorithm, row, functions| bad =
+        first(bad, (functions.solve_both)(m, d, w, (b, &mut *x, &mut *y))));
     bad
 }
 

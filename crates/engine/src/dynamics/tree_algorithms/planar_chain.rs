@@ -16,9 +16,9 @@
 //! Which trees are such chains is determined when a model is compiled, and stored in the model. If axes or frames are
 //! written afterwards, a chain may no longer be planar. It is then computed by the general algorithm.
 
-use super::planar_passes::{Joint, Link, forward_kinematics, inward, outward, solve_known};
-use super::{Assignment, Damped, Factors, Forces, NOTHING, Row, chain};
-use crate::dynamics::{Scratch, com, kinematics, mass as rows_of_m, reflected, rne};
+use super::planar_passes::{PlanarJoint, PlanarLink, forward_kinematics, inward, outward, solve_known};
+use super::{AlgorithmRow, Assignment, Damped, Factors, Forces, NOTHING, chain};
+use crate::dynamics::{DynamicsScratch, com, kinematics, mass as rows_of_m, reflected, rne};
 use crate::kinds::joint;
 use crate::math::*;
 use crate::model::plan::PlanFlag;
@@ -27,7 +27,7 @@ use std::array::from_fn;
 use std::ops::Range;
 use wide::f64x4;
 
-pub(super) const ROW: Row = Row {
+pub(super) const ROW: AlgorithmRow = AlgorithmRow {
     name: "planar",
     covers,
     copies: &chain::COPIES,
@@ -61,9 +61,9 @@ const FLAT: f64 = 1e-12;
 pub(super) struct Trees {
     /// Spatial parameters of the links.
     chains: chain::Trees,
-    spans: Vec<Span>,
-    links: Vec<Link>,
-    joints: Vec<[Joint; 2]>,
+    spans: Vec<ChainSpan>,
+    links: Vec<PlanarLink>,
+    joints: Vec<[PlanarJoint; 2]>,
     hinges: Vec<FourHinges>,
     /// Whether all chains are currently planar.
     flat: bool,
@@ -74,7 +74,7 @@ pub(super) struct Trees {
 
 /// A chain: its degrees of freedom, the range of its links in `links`, and the axes of its plane, world frame.
 #[derive(Clone, Debug, Default, PartialEq)]
-struct Span {
+struct ChainSpan {
     dofs: Range<usize>,
     links: Range<usize>,
     plane: [Vec3; 2],
@@ -87,21 +87,21 @@ struct FourHinges {
     sense: f64x4,
 }
 
-fn load_hinges(hinges: &mut [FourHinges], links: &[Link]) {
+fn load_hinges(hinges: &mut [FourHinges], links: &[PlanarLink]) {
     for (hinges, four) in hinges.iter_mut().zip(links.chunks(4)) {
-        let of = |get: fn(&Link) -> f64| f64x4::new(from_fn(|i| four.get(i).map_or(0.0, get)));
-        hinges.anchor = [of(|link| link.anchor[0]), of(|link| link.anchor[1])];
-        hinges.sense = of(|link| link.sense);
+        let gathered = |get: fn(&PlanarLink) -> f64| f64x4::new(from_fn(|i| four.get(i).map_or(0.0, get)));
+        hinges.anchor = [gathered(|link| link.anchor[0]), gathered(|link| link.anchor[1])];
+        hinges.sense = gathered(|link| link.sense);
     }
 }
 
-/// Writes a row of n elements at the start of `rows`, which ends with the last row of the chain: `of` gives the elements from their
+/// Writes a row of n elements at the start of `rows`, which ends with the last row of the chain: `get` gives the elements from their
 /// hinges. The last group may also write elements of the next rows, so rows are written in ascending order.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn fill(rows: &mut [f64], n: usize, hinges: &[FourHinges], of: impl Fn(&FourHinges) -> f64x4) {
+fn fill(rows: &mut [f64], n: usize, hinges: &[FourHinges], get: impl Fn(&FourHinges) -> f64x4) {
     let groups = n.div_ceil(4).min(hinges.len());
     for (to, hinges) in rows.chunks_mut(4).zip(&hinges[..groups]) {
-        let elements = of(hinges).to_array();
+        let elements = get(hinges).to_array();
         match to.first_chunk_mut() {
             Some(four) => *four = elements,
             None => to.iter_mut().zip(elements).for_each(|(to, element)| *to = element),
@@ -146,14 +146,14 @@ impl Trees {
         for &tree in &assignment.forces {
             let dofs = m.tree_dofs(tree);
             let n = dofs.len();
-            spans.push(Span { dofs, links: links..links + n, plane: Default::default() });
+            spans.push(ChainSpan { dofs, links: links..links + n, plane: Default::default() });
             links += n;
         }
         let mut trees = Trees {
             chains,
             spans,
-            links: vec![Link::default(); links],
-            joints: vec![[Joint::default(); 2]; links],
+            links: vec![PlanarLink::default(); links],
+            joints: vec![[PlanarJoint::default(); 2]; links],
             hinges: vec![FourHinges::default(); links.div_ceil(4)],
             flat: true,
             untied: true,
@@ -186,7 +186,7 @@ impl Trees {
                 let flat = |v: Vec3| [dot(plane[0], v), dot(plane[1], v)];
                 let com = flat(mat_mul_vec(&turn, fixed.com));
                 let across = mat_t_mul_vec(&turn, normal);
-                *link = Link {
+                *link = PlanarLink {
                     at: flat(mat_mul_vec(&above, fixed.at)),
                     com,
                     sense: along.round(),
@@ -206,8 +206,8 @@ impl Trees {
 
 /// Computes the positions of the links, and the rows of M if they are read.
 #[inline(never)] // so that scenes without such chains do not execute its setup code; the same applies below
-fn mass(m: &Model, d: &mut Fields, w: &mut Scratch) {
-    let rows = w.rows_wanted;
+fn mass(m: &Model, d: &mut Fields, w: &mut DynamicsScratch) {
+    let rows = w.needs_mass_rows;
     let trees = &mut w.algorithms.planar_chain;
     if !trees.flat {
         return in_space(m, d, w);
@@ -223,7 +223,7 @@ fn mass(m: &Model, d: &mut Fields, w: &mut Scratch) {
 }
 
 /// Computes the rows of M of chains that are no longer planar.
-fn in_space(m: &Model, d: &mut Fields, w: &mut Scratch) {
+fn in_space(m: &Model, d: &mut Fields, w: &mut DynamicsScratch) {
     kinematics::bodies(d, super::general::frames(w));
     com::com_pos(m, d);
     com::body_inertias(m, d);
@@ -234,7 +234,13 @@ fn in_space(m: &Model, d: &mut Fields, w: &mut Scratch) {
 
 /// Computes the rows of M: the angular momentum about a hinge of all links beyond it, for a unit velocity of a hinge
 /// before it.
-fn rows_of_mass(m: &Model, mass: &mut [f64], span: &Span, links: &mut [Link], hinges: &[FourHinges]) {
+fn rows_of_mass(
+    m: &Model,
+    mass: &mut [f64],
+    span: &ChainSpan,
+    links: &mut [PlanarLink],
+    hinges: &[FourHinges],
+) {
     let (mut moment, mut first, mut total) = (0.0, [0.0; 2], 0.0);
     for link in links.iter_mut().rev() {
         moment += link.inertia;
@@ -260,7 +266,7 @@ fn rows_of_mass(m: &Model, mass: &mut [f64], span: &Span, links: &mut [Link], hi
 
 /// Computes the bias force.
 #[inline(never)]
-fn bias(m: &Model, d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
+fn bias(m: &Model, d: &mut Fields, w: &mut DynamicsScratch, gravity: Vec3) {
     if !w.algorithms.planar_chain.flat {
         com::com_vel(m, d);
         return rne::newton_euler(m, d, w, gravity);
@@ -292,11 +298,11 @@ fn bias(m: &Model, d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
 
 /// Computes U and 1/D for solving with M. With `x`, also x ← M⁻¹ x.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn prepare(m: &Model, d: &mut Fields, w: &mut Scratch, mut x: Option<&mut [f64]>) -> Option<usize> {
+fn prepare(m: &Model, d: &mut Fields, w: &mut DynamicsScratch, mut x: Option<&mut [f64]>) -> Option<usize> {
     let trees = &mut w.algorithms.planar_chain;
     trees.untied = m.ntendon == 0 || !reflected::tendons_have_inertia(m);
     let mut bad = None;
-    for Span { dofs, links: range, .. } in &trees.spans {
+    for ChainSpan { dofs, links: range, .. } in &trees.spans {
         let (links, joints) = (&trees.links[range.clone()], &mut trees.joints[range.clone()]);
         let found = match (x.as_deref_mut(), trees.untied && trees.flat) {
             (Some(x), true) => {
@@ -327,7 +333,7 @@ fn prepare(m: &Model, d: &mut Fields, w: &mut Scratch, mut x: Option<&mut [f64]>
 }
 
 #[inline(never)]
-fn factor(m: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
+fn factor(m: &Model, d: &mut Fields, w: &mut DynamicsScratch) -> Option<usize> {
     let bad = prepare(m, d, w, None);
     w.rows_due = d.plan.has(PlanFlag::MassForRows);
     if !w.rows_due {
@@ -337,12 +343,12 @@ fn factor(m: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
 }
 
 #[inline(never)]
-fn factor_and_solve(m: &Model, d: &mut Fields, w: &mut Scratch, x: &mut [f64]) -> Option<usize> {
+fn factor_and_solve(m: &Model, d: &mut Fields, w: &mut DynamicsScratch, x: &mut [f64]) -> Option<usize> {
     prepare(m, d, w, Some(x))
 }
 
 #[inline(never)]
-fn solve_both(m: &Model, d: &mut Fields, w: &mut Scratch, (b, x, y): Damped<'_>) -> Option<usize> {
+fn solve_both(m: &Model, d: &mut Fields, w: &mut DynamicsScratch, (b, x, y): Damped<'_>) -> Option<usize> {
     let trees = &mut w.algorithms.planar_chain;
     trees.untied = m.ntendon == 0 || !reflected::tendons_have_inertia(m);
     if !(trees.untied && trees.flat) {
@@ -350,7 +356,7 @@ fn solve_both(m: &Model, d: &mut Fields, w: &mut Scratch, (b, x, y): Damped<'_>)
         return factor_and_solve(m, d, w, x);
     }
     let mut bad = None;
-    for Span { dofs, links: range, .. } in &trees.spans {
+    for ChainSpan { dofs, links: range, .. } in &trees.spans {
         let (links, joints) = (&trees.links[range.clone()], &mut trees.joints[range.clone()]);
         let (b, x, y) = (&b[dofs.clone()], &mut x[dofs.clone()], &mut y[dofs.clone()]);
         for ((joint, link), ((b, x), y)) in joints.iter_mut().zip(links).zip(b.iter().zip(&*x).zip(&*y)) {
@@ -369,7 +375,7 @@ fn solve_both(m: &Model, d: &mut Fields, w: &mut Scratch, (b, x, y): Damped<'_>)
 
 /// Computes the rows of `qLD`, and `qLDiagInv`.
 #[inline(never)]
-fn rows_of_factor(m: &Model, d: &mut Fields, w: &mut Scratch) {
+fn rows_of_factor(m: &Model, d: &mut Fields, w: &mut DynamicsScratch) {
     let Trees { spans, links, joints, hinges, untied, flat, .. } = &mut w.algorithms.planar_chain;
     if !(*untied && *flat) {
         return;
@@ -378,7 +384,7 @@ fn rows_of_factor(m: &Model, d: &mut Fields, w: &mut Scratch) {
         let (links, joints) = (&links[span.links.clone()], &joints[span.links.clone()]);
         load_hinges(hinges, links);
         let end = rows_of_m::rows_of(m, span.dofs.clone()).end;
-        for ((k, link), [Joint { u, inv, .. }, _]) in span.dofs.clone().zip(links).zip(joints) {
+        for ((k, link), [PlanarJoint { u, inv, .. }, _]) in span.dofs.clone().zip(links).zip(joints) {
             d.qLDiagInv[k] = *inv;
             let row = rows_of_m::row(m, k);
             let (anchor, u) = (link.anchor.map(f64x4::splat), u.map(f64x4::splat));
@@ -392,9 +398,9 @@ fn rows_of_factor(m: &Model, d: &mut Fields, w: &mut Scratch) {
 }
 
 #[inline(never)]
-fn solve(m: &Model, d: &Fields, w: &mut Scratch, x: &mut [f64]) {
+fn solve(m: &Model, d: &Fields, w: &mut DynamicsScratch, x: &mut [f64]) {
     let Trees { spans, links, joints, untied, flat, .. } = &mut w.algorithms.planar_chain;
-    for Span { dofs, links: range, .. } in spans.iter() {
+    for ChainSpan { dofs, links: range, .. } in spans.iter() {
         if !(*untied && *flat) {
             rows_of_m::solve(m, &d.qLD, &d.qLDiagInv, x, dofs.clone());
             continue;
@@ -407,9 +413,9 @@ fn solve(m: &Model, d: &Fields, w: &mut Scratch, x: &mut [f64]) {
 }
 
 #[inline(never)]
-fn solve_with(m: &Model, d: &Fields, w: &mut Scratch, b: &[f64], x: &mut [f64]) {
+fn solve_with(m: &Model, d: &Fields, w: &mut DynamicsScratch, b: &[f64], x: &mut [f64]) {
     let Trees { spans, links, joints, untied, flat, .. } = &mut w.algorithms.planar_chain;
-    for Span { dofs, links: range, .. } in spans.iter() {
+    for ChainSpan { dofs, links: range, .. } in spans.iter() {
         if !(*untied && *flat) {
             rows_of_m::solve_with(m, &d.M, b, [&mut w.ld, &mut w.diag_inv], dofs.clone(), x);
             continue;

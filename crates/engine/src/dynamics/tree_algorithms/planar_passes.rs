@@ -6,7 +6,7 @@ pub(super) type Vec2 = [f64; 2];
 
 /// A link: the bodies that move with one hinge.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Link {
+pub(super) struct PlanarLink {
     /// Vectors from the previous anchor to the anchor, and from the anchor to the centre of mass, in the default
     /// configuration.
     pub(super) at: Vec2,
@@ -35,7 +35,7 @@ pub(super) struct Link {
 /// U and 1/D, the addition of the joint to the diagonal of the matrix, and an element of the vector that is solved
 /// for.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Joint {
+pub(super) struct PlanarJoint {
     pub(super) u: [f64; 3],
     pub(super) inv: f64,
     pub(super) diagonal: f64,
@@ -45,7 +45,7 @@ pub(super) struct Joint {
 /// Articulated inertia about an anchor (J, h and M of `planar_chain`), and a force, with its torque about the anchor
 /// first.
 #[derive(Clone, Copy, Debug, Default)]
-struct Body {
+struct PlanarBody {
     moment: f64,
     first: Vec2,
     mass: [f64; 3],
@@ -54,7 +54,7 @@ struct Body {
 
 /// Computes the current positions and orientations of the links.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(super) fn forward_kinematics(links: &mut [Link], qpos: &[f64]) {
+pub(super) fn forward_kinematics(links: &mut [PlanarLink], qpos: &[f64]) {
     let (mut angle, mut cos, mut sin) = (0.0, 1.0, 0.0);
     let mut anchor = [0.0; 2];
     for link in links {
@@ -74,11 +74,11 @@ pub(super) fn forward_kinematics(links: &mut [Link], qpos: &[f64]) {
 /// whose D is not positive. With `X`, the pass includes the vector that is solved for.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn inward<const A: usize, const B: usize, const X: bool>(
-    links: &[Link],
-    joints: &mut [[Joint; 2]],
+    links: &[PlanarLink],
+    joints: &mut [[PlanarJoint; 2]],
 ) -> Option<usize> {
     let mut bad = None;
-    let mut bodies = [Body::default(); 2];
+    let mut bodies = [PlanarBody::default(); 2];
     for (k, (link, joint)) in links.iter().zip(joints).enumerate().rev() {
         let q = link.quarter;
         for i in A..B {
@@ -112,7 +112,7 @@ pub(super) fn inward<const A: usize, const B: usize, const X: bool>(
 /// Subtracts what a hinge takes up of the force of all links beyond it, and transforms the rest to the previous
 /// anchor.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn pass_on(link: &Link, joint: &mut Joint, force: &mut [f64; 3]) {
+fn pass_on(link: &PlanarLink, joint: &mut PlanarJoint, force: &mut [f64; 3]) {
     joint.x = (joint.x - link.sense * force[0]) * joint.inv;
     let [torque, x, y] = add_scaled(*force, joint.u, joint.x);
     *force = [torque + link.quarter[0] * x + link.quarter[1] * y, x, y];
@@ -120,7 +120,7 @@ fn pass_on(link: &Link, joint: &mut Joint, force: &mut [f64; 3]) {
 
 /// The outward pass, from the world to the end of the chain.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(super) fn outward<const A: usize, const B: usize>(links: &[Link], joints: &mut [[Joint; 2]]) {
+pub(super) fn outward<const A: usize, const B: usize>(links: &[PlanarLink], joints: &mut [[PlanarJoint; 2]]) {
     let mut all = [[0.0; 3]; 2];
     for (link, joint) in links.iter().zip(joints) {
         for i in A..B {
@@ -135,7 +135,7 @@ pub(super) fn outward<const A: usize, const B: usize>(links: &[Link], joints: &m
 
 /// Both passes for a vector if U and D are known.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(super) fn solve_known(links: &[Link], joints: &mut [[Joint; 2]]) {
+pub(super) fn solve_known(links: &[PlanarLink], joints: &mut [[PlanarJoint; 2]]) {
     let mut force = [0.0; 3];
     for (link, joint) in links.iter().zip(joints.iter_mut()).rev() {
         pass_on(link, &mut joint[0], &mut force);

@@ -5,15 +5,15 @@
 //! -m_i (a_i · g). M changes only if masses change, or if the body that carries the tree rotates. Otherwise M and its
 //! factorization are reused.
 
-use super::{Assignment, Damped, Factors, Forces, NOTHING, Row};
-use crate::dynamics::{Scratch, mass as rows_of_mass};
+use super::{AlgorithmRow, Assignment, Damped, Factors, Forces, NOTHING};
+use crate::dynamics::{DynamicsScratch, mass as rows_of_mass};
 use crate::kinds::joint;
 use crate::math::*;
 use crate::model::reflect::model as fields_of;
 use crate::model::{Fields, Model};
 use std::ops::Range;
 
-pub(super) const ROW: Row = Row {
+pub(super) const ROW: AlgorithmRow = AlgorithmRow {
     name: "prismatic",
     covers,
     copies: &[
@@ -57,7 +57,7 @@ pub(super) struct Trees {
     /// The mass of each body, and that of each body with its descendants.
     masses: Vec<f64>,
     carried: Vec<f64>,
-    factored: Vec<Factored>,
+    factored: Vec<FactoredTree>,
 }
 
 /// A slide.
@@ -75,11 +75,11 @@ struct Slide {
 
 /// A tree, and its factorization with the M that it was computed from.
 #[derive(Clone, Debug, Default, PartialEq)]
-struct Factored {
+struct FactoredTree {
     dofs: Range<usize>,
     /// The range of its rows of M.
     rows: Range<usize>,
-    of: Vec<f64>,
+    matrix: Vec<f64>,
     ld: Vec<f64>,
     diag_inv: Vec<f64>,
 }
@@ -94,7 +94,7 @@ impl Trees {
         let slides = assignment.forces.iter().flat_map(|&tree| m.tree_dofs(tree)).map(slide).collect();
         let tree = |&tree: &usize| {
             let dofs = m.tree_dofs(tree);
-            Factored { rows: rows_of_mass::rows_of(m, dofs.clone()), dofs, ..Factored::default() }
+            FactoredTree { rows: rows_of_mass::rows_of(m, dofs.clone()), dofs, ..FactoredTree::default() }
         };
         let factored = assignment.factors.iter().map(tree).collect();
         let mut trees = Trees { slides, factored, ..Trees::default() };
@@ -140,7 +140,7 @@ impl Trees {
     }
 }
 
-fn mass(m: &Model, d: &mut Fields, w: &mut Scratch) {
+fn mass(m: &Model, d: &mut Fields, w: &mut DynamicsScratch) {
     let trees = &mut w.algorithms.prismatic;
     trees.update(m, rows::<3>(&d.xaxis));
     for slide in &trees.slides {
@@ -148,27 +148,27 @@ fn mass(m: &Model, d: &mut Fields, w: &mut Scratch) {
     }
 }
 
-fn bias(_: &Model, d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
+fn bias(_: &Model, d: &mut Fields, w: &mut DynamicsScratch, gravity: Vec3) {
     let axes = rows::<3>(&d.xaxis);
     for slide in &w.algorithms.prismatic.slides {
         d.qfrc_bias[slide.dof] = -slide.mass * dot(gravity, axes[slide.joint]);
     }
 }
 
-fn factor(m: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
+fn factor(m: &Model, d: &mut Fields, w: &mut DynamicsScratch) -> Option<usize> {
     let mut bad = None;
     for tree in &mut w.algorithms.prismatic.factored {
         let (rows, dofs) = (tree.rows.clone(), tree.dofs.clone());
-        if same_bits(&tree.of, &d.M[rows.clone()]) {
+        if same_bits(&tree.matrix, &d.M[rows.clone()]) {
             d.qLD[rows].copy_from_slice(&tree.ld);
             d.qLDiagInv[dofs].copy_from_slice(&tree.diag_inv);
             continue;
         }
         let failed = rows_of_mass::factor_copy(m, &d.M, &mut d.qLD, &mut d.qLDiagInv, dofs.clone());
         // A failed factorization is not reused, so that the next step warns again.
-        tree.of.clear();
+        tree.matrix.clear();
         if failed.is_none() {
-            tree.of.extend_from_slice(&d.M[rows.clone()]);
+            tree.matrix.extend_from_slice(&d.M[rows.clone()]);
             tree.ld.clear();
             tree.ld.extend_from_slice(&d.qLD[rows]);
             tree.diag_inv.clear();
@@ -179,26 +179,26 @@ fn factor(m: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
     bad
 }
 
-fn solve(m: &Model, d: &Fields, w: &mut Scratch, x: &mut [f64]) {
+fn solve(m: &Model, d: &Fields, w: &mut DynamicsScratch, x: &mut [f64]) {
     for tree in &w.algorithms.prismatic.factored {
         rows_of_mass::solve(m, &d.qLD, &d.qLDiagInv, x, tree.dofs.clone());
     }
 }
 
-fn solve_with(m: &Model, d: &Fields, w: &mut Scratch, b: &[f64], x: &mut [f64]) {
+fn solve_with(m: &Model, d: &Fields, w: &mut DynamicsScratch, b: &[f64], x: &mut [f64]) {
     for tree in &w.algorithms.prismatic.factored {
         let dofs = tree.dofs.clone();
         rows_of_mass::solve_with(m, &d.M, b, [&mut w.ld, &mut w.diag_inv], dofs, x);
     }
 }
 
-fn factor_and_solve(m: &Model, d: &mut Fields, w: &mut Scratch, x: &mut [f64]) -> Option<usize> {
+fn factor_and_solve(m: &Model, d: &mut Fields, w: &mut DynamicsScratch, x: &mut [f64]) -> Option<usize> {
     let bad = factor(m, d, w);
     solve(m, d, w, x);
     bad
 }
 
-fn solve_both(m: &Model, d: &mut Fields, w: &mut Scratch, (b, x, y): Damped<'_>) -> Option<usize> {
+fn solve_both(m: &Model, d: &mut Fields, w: &mut DynamicsScratch, (b, x, y): Damped<'_>) -> Option<usize> {
     solve_with(m, d, w, b, y);
     factor_and_solve(m, d, w, x)
 }

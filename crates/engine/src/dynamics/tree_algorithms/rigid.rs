@@ -11,14 +11,14 @@
 //!
 //! > kinetic energy ½ m v² + v · R(ω × h) + ½ ω · I ω, bias along v = R(ω × (ω × h)) - m g
 
-use super::{Assignment, Forces, NOTHING, Row};
-use crate::dynamics::{Scratch, mass as rows_of_mass};
+use super::{AlgorithmRow, Assignment, Forces, NOTHING};
+use crate::dynamics::{DynamicsScratch, mass as rows_of_mass};
 use crate::kinds::joint;
 use crate::math::*;
 use crate::model::reflect::{FieldId, model as fields_of};
 use crate::model::{Fields, Model};
 
-pub(super) const ROW: Row = Row {
+pub(super) const ROW: AlgorithmRow = AlgorithmRow {
     name: "rigid",
     covers,
     copies: &COPIES,
@@ -57,12 +57,12 @@ fn covers(m: &Model, tree: usize) -> bool {
 /// The bodies of this algorithm.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Trees {
-    bodies: Vec<Body>,
+    bodies: Vec<MovingBody>,
 }
 
 /// The moving body, with the bodies fixed to it.
 #[derive(Clone, Debug, Default, PartialEq)]
-struct Body {
+struct MovingBody {
     tree: usize,
     body: usize,
     joint: usize,
@@ -84,7 +84,7 @@ impl Trees {
         let body = |&tree: &usize| {
             let dofs = m.tree_dofs(tree);
             let joint = m.dof_jntid[dofs.start] as usize;
-            let mut body = Body {
+            let mut body = MovingBody {
                 tree,
                 body: m.jnt_bodyid[joint] as usize,
                 joint,
@@ -92,7 +92,7 @@ impl Trees {
                 first: dofs.start,
                 turn: dofs.end - 3,
                 rows: m.M_rowadr[dofs.start] as usize,
-                ..Body::default()
+                ..MovingBody::default()
             };
             body.load(m);
             body
@@ -101,7 +101,7 @@ impl Trees {
     }
 }
 
-impl Body {
+impl MovingBody {
     /// Reads its inertia and armature from the model.
     fn load(&mut self, m: &Model) {
         let first = m.tree_bodyadr[self.tree] as usize;
@@ -130,7 +130,7 @@ impl Body {
     }
 }
 
-fn mass(_: &Model, d: &mut Fields, w: &mut Scratch) {
+fn mass(_: &Model, d: &mut Fields, w: &mut DynamicsScratch) {
     for body in &w.algorithms.rigid.bodies {
         let [xx, yy, zz, xy, xz, yz, hx, hy, hz, mass] = body.inertia;
         let ([a, b, c], [u, v, w]) = (body.turning, body.moving);
@@ -161,7 +161,7 @@ fn fill<const N: usize>(rows: &mut [f64], values: [f64; N]) {
     }
 }
 
-fn bias(_: &Model, d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
+fn bias(_: &Model, d: &mut Fields, w: &mut DynamicsScratch, gravity: Vec3) {
     for body in &w.algorithms.rigid.bodies {
         let [xx, yy, zz, xy, xz, yz, hx, hy, hz, mass] = body.inertia;
         let (h, axes) = ([hx, hy, hz], &rows::<9>(&d.xmat)[body.body]);

@@ -3,14 +3,14 @@
 //! Their rows of M form a packed lower triangle, which is factorized and solved with sizes known at compile time
 //! (`triangle`).
 
-use super::{Assignment, Damped, Factors, NOTHING, Row};
-use crate::dynamics::Scratch;
+use super::{AlgorithmRow, Assignment, Damped, Factors, NOTHING};
+use crate::dynamics::DynamicsScratch;
 use crate::dynamics::triangle::{
     by_size, factor as factor_triangle, part, part_mut, size_before, solve as solve_triangle, solve_at,
 };
 use crate::model::{Fields, Model};
 
-pub(super) const ROW: Row = Row {
+pub(super) const ROW: AlgorithmRow = AlgorithmRow {
     name: "small_chain",
     covers,
     factors: Some(Factors {
@@ -56,7 +56,7 @@ impl Trees {
 }
 
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn factor(_: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
+fn factor(_: &Model, d: &mut Fields, w: &mut DynamicsScratch) -> Option<usize> {
     let mut bad = None;
     for tree in &w.algorithms.small_chain.trees {
         bad = bad.or(tree.factor(&d.M, &mut d.qLD, &mut d.qLDiagInv, None));
@@ -65,21 +65,21 @@ fn factor(_: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
 }
 
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn solve(_: &Model, d: &Fields, w: &mut Scratch, x: &mut [f64]) {
+fn solve(_: &Model, d: &Fields, w: &mut DynamicsScratch, x: &mut [f64]) {
     for tree in &w.algorithms.small_chain.trees {
         tree.solve(d, x);
     }
 }
 
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn solve_with(_: &Model, d: &Fields, w: &mut Scratch, b: &[f64], x: &mut [f64]) {
+fn solve_with(_: &Model, d: &Fields, w: &mut DynamicsScratch, b: &[f64], x: &mut [f64]) {
     for tree in &w.algorithms.small_chain.trees {
         tree.solve_with(&d.M, b, x);
     }
 }
 
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn factor_and_solve(_: &Model, d: &mut Fields, w: &mut Scratch, x: &mut [f64]) -> Option<usize> {
+fn factor_and_solve(_: &Model, d: &mut Fields, w: &mut DynamicsScratch, x: &mut [f64]) -> Option<usize> {
     let mut bad = None;
     for tree in &w.algorithms.small_chain.trees {
         bad = bad.or(tree.factor(&d.M, &mut d.qLD, &mut d.qLDiagInv, Some(&mut *x)));
@@ -88,7 +88,7 @@ fn factor_and_solve(_: &Model, d: &mut Fields, w: &mut Scratch, x: &mut [f64]) -
 }
 
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn solve_both(_: &Model, d: &mut Fields, w: &mut Scratch, (b, x, y): Damped<'_>) -> Option<usize> {
+fn solve_both(_: &Model, d: &mut Fields, w: &mut DynamicsScratch, (b, x, y): Damped<'_>) -> Option<usize> {
     let mut bad = None;
     for tree in &w.algorithms.small_chain.trees {
         bad = bad.or(tree.factor(&d.M, &mut d.qLD, &mut d.qLDiagInv, Some(&mut *x)));

@@ -16,7 +16,7 @@ pub(super) fn controls_motion(spec: i32) -> bool {
 
 /// The inputs of a servo.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Inputs {
+pub(super) struct ServoInputs {
     pub(super) pos: Option<f64>,
     pub(super) vel: f64,
     pub(super) ff: f64,
@@ -25,8 +25,8 @@ pub(super) struct Inputs {
     pub(super) controller: bool,
 }
 
-impl Inputs {
-    pub(super) fn new(m: &Model, i: usize, ctrl: &[f64]) -> Inputs {
+impl ServoInputs {
+    pub(super) fn new(m: &Model, i: usize, ctrl: &[f64]) -> ServoInputs {
         let spec = m.actuator_ctrlspec[i];
         let mut at = m.actuator_ctrladr[i] as usize;
         let end = at + m.actuator_ctrlnum[i] as usize;
@@ -36,7 +36,7 @@ impl Inputs {
             here
         };
         let (pos, vel, ff, voltage) = (take(POS), take(VEL), take(FF), take(VOLTAGE));
-        Inputs {
+        ServoInputs {
             pos,
             vel: vel.unwrap_or(0.0),
             ff: ff.unwrap_or(0.0),

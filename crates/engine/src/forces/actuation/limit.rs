@@ -1,12 +1,12 @@
 //! Force limits: for all actuators of a tendon together, for each actuator, and for all actuators of a joint together.
 
-use crate::forces::Scratch;
+use crate::forces::ForceScratch;
 use crate::kinds::{gaintype, joint, trntype};
 use crate::math::*;
 use crate::model::{Fields, Model};
 
 /// Scales the actuator forces on a tendon if their sum is outside its range.
-pub(super) fn tendons(m: &Model, d: &mut Fields, w: &mut Scratch) {
+pub(super) fn tendons(m: &Model, d: &mut Fields, w: &mut ForceScratch) {
     if !m.tendon_actfrclimited.contains(&true) {
         return;
     }

@@ -16,7 +16,7 @@ pub(crate) mod muscle;
 mod rates;
 mod servo;
 
-use crate::forces::{Scratch, transmission};
+use crate::forces::{ForceScratch, transmission};
 use crate::kinds::{biastype, disable, dyntype, gaintype, joint, trntype};
 use crate::math::*;
 use crate::model::index::{element_range, object_index};
@@ -39,8 +39,8 @@ fn acts(m: &Model, d: &Fields, i: usize) -> bool {
 }
 
 /// The ten parameters of actuator `i`.
-pub(crate) fn prm(of: &[f64], i: usize) -> &[f64; 10] {
-    &rows::<10>(of)[i]
+pub(crate) fn prm(numbers: &[f64], i: usize) -> &[f64; 10] {
+    &rows::<10>(numbers)[i]
 }
 
 /// Addresses of the activations of actuator `i`.
@@ -56,7 +56,7 @@ fn exact(act: f64, rate: f64, tau: f64, h: f64) -> f64 {
 
 /// Computes `actuator_force`, `act_dot`, `qfrc_actuator`.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(crate) fn actuation(m: &Model, d: &mut Fields, w: &mut Scratch) {
+pub(crate) fn actuation(m: &Model, d: &mut Fields, w: &mut ForceScratch) {
     if !(d.plan.has(PlanFlag::Motors) && motors(m, d)) {
         any(m, d, w);
     }
@@ -64,7 +64,7 @@ pub(crate) fn actuation(m: &Model, d: &mut Fields, w: &mut Scratch) {
 
 /// Like [`actuation`], for actuators of any kind.
 #[inline(never)]
-fn any(m: &Model, d: &mut Fields, w: &mut Scratch) {
+fn any(m: &Model, d: &mut Fields, w: &mut ForceScratch) {
     if m.nactuator == 0 || m.opt.disabled(disable::ACTUATION) {
         d.actuator_force.fill(0.0);
         d.qfrc_actuator.fill(0.0);
@@ -210,7 +210,7 @@ fn changing_gain(m: &Model, d: &Fields, i: usize) -> f64 {
     let (p, o) = (prm(&m.actuator_gainprm, i), m.actuator_outadr[i] as usize);
     match m.actuator_gaintype[i] {
         gaintype::AFFINE => affine(p, d.actuator_length[o], d.actuator_velocity[o]),
-        gaintype::MUSCLE => muscle::gain(p, &muscle::State::new(m, d, o, p)),
+        gaintype::MUSCLE => muscle::gain(p, &muscle::MuscleState::new(m, d, o, p)),
         _ => p[0],
     }
 }
@@ -228,7 +228,7 @@ fn some_bias(m: &Model, d: &Fields, i: usize) -> f64 {
     let (p, o) = (prm(&m.actuator_biasprm, i), m.actuator_outadr[i] as usize);
     match m.actuator_biastype[i] {
         biastype::AFFINE => affine(p, d.actuator_length[o], d.actuator_velocity[o]),
-        biastype::MUSCLE => muscle::bias(p, &muscle::State::new(m, d, o, p)),
+        biastype::MUSCLE => muscle::bias(p, &muscle::MuscleState::new(m, d, o, p)),
         biastype::DCMOTOR => motor::back_emf(m, d, i),
         _ => 0.0,
     }

@@ -4,7 +4,7 @@
 //! i = (V - K ω)/R, or approaches that value with the electrical time constant, and the torque is K i. Friction of the
 //! bearing follows the LuGre model (Canudas de Wit et al. 1995) with the bristle deflection z, ż = ω - σ₀ |ω| z/g(ω).
 
-use super::inputs::{self, Inputs, anti_windup_rate};
+use super::inputs::{self, ServoInputs, anti_windup_rate};
 use super::{exact, prm, states};
 use crate::kinds::dyntype;
 use crate::math::*;
@@ -98,7 +98,7 @@ impl<'a> Motor<'a> {
 
     /// The voltage that a controller applies to obtain a torque, computed with the resistance of the cold winding, plus the
     /// voltage input.
-    fn voltage(&self, d: &Fields, inputs: &Inputs) -> f64 {
+    fn voltage(&self, d: &Fields, inputs: &ServoInputs) -> f64 {
         if !inputs.controller {
             return inputs.voltage;
         }
@@ -134,7 +134,7 @@ pub(super) fn rates(m: &Model, d: &mut Fields, i: usize, ctrl: &mut [f64]) {
             d.act_dot[first + slots.slew.unwrap_or(0)] = (*u - last) / h;
         }
     }
-    let inputs = Inputs::new(m, i, ctrl);
+    let inputs = ServoInputs::new(m, i, ctrl);
     let voltage = motor.voltage(d, &inputs);
     let (k, resistance) = (motor.constant(), motor.resistance(d));
     if let Some(s) = slots.integral {
@@ -192,7 +192,7 @@ pub(super) fn electric(m: &Model, d: &Fields, i: usize, ctrl: &[f64]) -> f64 {
             motor.constant() * current
         }
         None => {
-            let voltage = motor.voltage(d, &Inputs::new(m, i, ctrl));
+            let voltage = motor.voltage(d, &ServoInputs::new(m, i, ctrl));
             motor.constant() / motor.resistance(d).max(MINVAL) * voltage
         }
     }
@@ -215,7 +215,7 @@ pub(crate) fn slopes(m: &Model, d: &Fields, i: usize, ctrl: &[f64]) -> [f64; 2] 
     let motor = Motor::new(m, d, i);
     let (k, resistance) = (motor.constant(), motor.resistance(d).max(MINVAL));
     let mut voltage = [-k, 0.0];
-    if Inputs::new(m, i, ctrl).controller {
+    if ServoInputs::new(m, i, ctrl).controller {
         let [cold, _, _, _, kp, _, kd, ..] = *motor.gain;
         voltage = [-cold / k * kd, -cold / k * kp];
     }

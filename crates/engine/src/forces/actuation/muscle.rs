@@ -16,7 +16,7 @@ use crate::math::*;
 use crate::model::{Fields, Model};
 
 /// The state of a muscle in normalized units.
-pub(crate) struct State {
+pub(crate) struct MuscleState {
     /// F₀: peak isometric force, N.
     peak: f64,
     /// L: length in units of the optimal length.
@@ -29,14 +29,14 @@ pub(crate) struct State {
     fastest: f64,
 }
 
-impl State {
+impl MuscleState {
     /// The state of the muscle with output `o` and parameters `p`. `actuator_lengthrange` corresponds to its operating range.
-    pub(crate) fn new(m: &Model, d: &Fields, o: usize, p: &[f64; 10]) -> State {
+    pub(crate) fn new(m: &Model, d: &Fields, o: usize, p: &[f64; 10]) -> MuscleState {
         let [from, to, force, scale, _, _, vmax, ..] = *p;
         let [shortest, longest] = rows::<2>(&m.actuator_lengthrange)[o];
         let optimal = ((longest - shortest) / (to - from).max(MINVAL)).max(MINVAL);
         let fastest = (optimal * vmax).max(MINVAL);
-        State {
+        MuscleState {
             peak: if force >= 0.0 { force } else { scale / m.actuator_acc0[o].max(MINVAL) },
             length: from + (d.actuator_length[o] - shortest) / optimal,
             velocity: d.actuator_velocity[o] / fastest,
@@ -93,27 +93,27 @@ fn passive_by_length(p: &[f64; 10], length: f64) -> Curve {
 }
 
 /// -F₀ FL FV: the force of a fully active muscle.
-pub(super) fn gain(p: &[f64; 10], s: &State) -> f64 {
+pub(super) fn gain(p: &[f64; 10], s: &MuscleState) -> f64 {
     -s.peak * active_by_length(p, s.length).value * active_by_velocity(p, s.velocity).value
 }
 
 /// The derivative of the gain with respect to velocity.
-pub(crate) fn gain_by_velocity(p: &[f64; 10], s: &State) -> f64 {
+pub(crate) fn gain_by_velocity(p: &[f64; 10], s: &MuscleState) -> f64 {
     -s.peak * active_by_length(p, s.length).value * active_by_velocity(p, s.velocity).slope / s.fastest
 }
 
 /// The derivative of the gain with respect to length.
-pub(crate) fn gain_by_length(p: &[f64; 10], s: &State) -> f64 {
+pub(crate) fn gain_by_length(p: &[f64; 10], s: &MuscleState) -> f64 {
     -s.peak * active_by_length(p, s.length).slope * active_by_velocity(p, s.velocity).value / s.optimal
 }
 
 /// -F₀ FP: the passive force.
-pub(super) fn bias(p: &[f64; 10], s: &State) -> f64 {
+pub(super) fn bias(p: &[f64; 10], s: &MuscleState) -> f64 {
     -s.peak * passive_by_length(p, s.length).value
 }
 
 /// The derivative of the passive force with respect to length.
-pub(crate) fn bias_by_length(p: &[f64; 10], s: &State) -> f64 {
+pub(crate) fn bias_by_length(p: &[f64; 10], s: &MuscleState) -> f64 {
     -s.peak * passive_by_length(p, s.length).slope / s.optimal
 }
 

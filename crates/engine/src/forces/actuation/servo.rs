@@ -1,6 +1,6 @@
 //! Servos: position servos for angles, PID controllers, orientation servos.
 
-use super::inputs::{Inputs, anti_windup_rate};
+use super::inputs::{ServoInputs, anti_windup_rate};
 use super::{activation, prm, states};
 use crate::dynamics::reflected::target;
 use crate::kinds::{biastype, dyntype, gaintype, joint, trntype};
@@ -84,7 +84,7 @@ impl Pid {
 /// Computes `act_dot` of a PID controller.
 pub(super) fn rates(m: &Model, d: &mut Fields, i: usize, ctrl: &[f64]) {
     let pid = Pid::new(m, i);
-    let pos = Inputs::new(m, i, ctrl).pos.unwrap_or(0.0);
+    let pos = ServoInputs::new(m, i, ctrl).pos.unwrap_or(0.0);
     if let Some(at) = pid.slew {
         let last = d.act[at];
         let step = m.actuator_dynprm[10 * i + 1] * m.opt.timestep;
@@ -102,7 +102,7 @@ pub(super) fn pid(m: &Model, d: &Fields, i: usize, ctrl: &[f64]) -> f64 {
     let o = m.actuator_outadr[i] as usize;
     let b = prm(&m.actuator_biasprm, i);
     let states = Pid::new(m, i);
-    let inputs = Inputs::new(m, i, ctrl);
+    let inputs = ServoInputs::new(m, i, ctrl);
     let setpoint = inputs.pos.map_or(0.0, |pos| states.setpoint(m, d, i, pos));
     let sum = states.integral.map_or(0.0, |at| activation::activation_of_step(m, d, i, at));
     let (error, slip) = (setpoint - d.actuator_length[o], inputs.vel - d.actuator_velocity[o]);

@@ -13,9 +13,9 @@ pub(super) fn find(m: &Model, d: &Fields, out: &mut [f64]) -> bool {
     let on = !m.opt.disabled(disable::ACTUATION);
     let mut others = false;
     for (i, slope) in out.iter_mut().enumerate() {
-        let now = if on && acts(m, d, i) { slopes(m, d, i).velocity } else { 0.0 };
-        others |= now.to_bits() != slope.to_bits();
-        *slope = now;
+        let current = if on && acts(m, d, i) { slopes(m, d, i).velocity } else { 0.0 };
+        others |= current.to_bits() != slope.to_bits();
+        *slope = current;
     }
     others
 }
@@ -62,20 +62,20 @@ pub(crate) fn acts(m: &Model, d: &Fields, i: usize) -> bool {
 
 /// ∂force/∂velocity and ∂force/∂length.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Slopes {
+pub(crate) struct ForceDerivatives {
     pub(crate) velocity: f64,
     pub(crate) length: f64,
 }
 
 /// The derivatives of the force of an actuator with respect to its length and velocity.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(crate) fn slopes(m: &Model, d: &Fields, i: usize) -> Slopes {
+pub(crate) fn slopes(m: &Model, d: &Fields, i: usize) -> ForceDerivatives {
     let mut out = match m.actuator_biastype[i] {
         biastype::AFFINE | biastype::SO3 => {
             let [_, length, velocity, ..] = *prm(&m.actuator_biasprm, i);
-            Slopes { velocity, length }
+            ForceDerivatives { velocity, length }
         }
-        _ => Slopes { velocity: 0.0, length: 0.0 },
+        _ => ForceDerivatives { velocity: 0.0, length: 0.0 },
     };
     // The most common actuators have a force that is proportional to their input. The others need more terms.
     if m.actuator_gaintype[i] != gaintype::FIXED || m.actuator_biastype[i] == biastype::MUSCLE {
@@ -86,7 +86,7 @@ pub(crate) fn slopes(m: &Model, d: &Fields, i: usize) -> Slopes {
 
 /// Adds the terms of other gains than fixed ones, and of muscles.
 #[inline(never)]
-fn add_other(m: &Model, d: &Fields, i: usize, out: &mut Slopes) {
+fn add_other(m: &Model, d: &Fields, i: usize, out: &mut ForceDerivatives) {
     let (gain, bias) = (prm(&m.actuator_gainprm, i), prm(&m.actuator_biasprm, i));
     match m.actuator_gaintype[i] {
         gaintype::AFFINE => {
@@ -96,7 +96,7 @@ fn add_other(m: &Model, d: &Fields, i: usize, out: &mut Slopes) {
         }
         gaintype::MUSCLE => {
             let input = actuation::input(m, d, i, &d.acting);
-            let state = muscle::State::new(m, d, m.actuator_outadr[i] as usize, gain);
+            let state = muscle::MuscleState::new(m, d, m.actuator_outadr[i] as usize, gain);
             out.velocity += muscle::gain_by_velocity(gain, &state) * input;
             out.length += muscle::gain_by_length(gain, &state) * input;
         }
@@ -108,7 +108,7 @@ fn add_other(m: &Model, d: &Fields, i: usize, out: &mut Slopes) {
         _ => {}
     }
     if m.actuator_biastype[i] == biastype::MUSCLE {
-        let state = muscle::State::new(m, d, m.actuator_outadr[i] as usize, bias);
+        let state = muscle::MuscleState::new(m, d, m.actuator_outadr[i] as usize, bias);
         out.length += muscle::bias_by_length(bias, &state);
     }
 }

@@ -10,7 +10,7 @@ pub(crate) mod sparse;
 use std::ops::Range;
 
 use crate::dynamics::{jacobian, mass, tree_algorithms, walk};
-use crate::forces::passive::fluid::{self, Frame, Shape};
+use crate::forces::passive::fluid::{self, FluidFrame, FluidShape};
 use crate::forces::passive::spring;
 use crate::forces::tendon;
 use crate::kinds::{disable, joint};
@@ -212,22 +212,22 @@ fn add_fluid(m: &Model, d: &Fields, columns: &mut [Spatial], out: &mut [f64], me
 }
 
 /// The derivative of torque and force with respect to the motion, row by row.
-fn slope(m: &Model, frame: &Frame, shape: &Shape, medium: Medium) -> [Spatial; 6] {
+fn slope(m: &Model, frame: &FluidFrame, shape: &FluidShape, medium: Medium) -> [Spatial; 6] {
     let mut b = [[0.0; 6]; 6];
     match shape {
-        Shape::Box(inertia) => {
+        FluidShape::Box(inertia) => {
             for (r, x) in inertia.derivative(frame.motion).into_iter().enumerate() {
                 b[r][r] = x;
             }
         }
-        Shape::Ellipsoid(ellipsoid) if medium == Medium::Drag => {
+        FluidShape::Ellipsoid(ellipsoid) if medium == Medium::Drag => {
             let [torque, force] = ellipsoid.drag(frame.motion);
             for (r, row) in b.iter_mut().enumerate() {
                 let (from, at) = if r < 3 { (&torque, 0) } else { (&force, 3) };
                 row[at..at + 3].copy_from_slice(&from[3 * (r % 3)..][..3]);
             }
         }
-        Shape::Ellipsoid(ellipsoid) => b = ellipsoid.derivative(frame.motion),
+        FluidShape::Ellipsoid(ellipsoid) => b = ellipsoid.derivative(frame.motion),
     }
     let tree = m.body_treeid[frame.body];
     let symmetric = match medium {

@@ -52,7 +52,7 @@ fn semi_axes(m: &Model, g: usize) -> Vec3 {
 }
 
 /// The projection of an ellipsoid along its motion. Its area is π √(den/num).
-struct Shadow {
+struct ProjectedArea {
     num: f64,
     den: f64,
     area: f64,
@@ -89,11 +89,11 @@ impl Ellipsoid {
         }
     }
 
-    fn shadow(&self, v: Vec3) -> Shadow {
+    fn shadow(&self, v: Vec3) -> ProjectedArea {
         let f = self.faces;
         let sum = |f: Vec3| f[0] * square(v[0]) + f[1] * square(v[1]) + f[2] * square(v[2]);
         let (num, den) = (sum(f), sum(f.map(square)));
-        Shadow { num, den, area: PI * (den / num.max(SMALLEST)).sqrt(), speed: norm(v) }
+        ProjectedArea { num, den, area: PI * (den / num.max(SMALLEST)).sqrt(), speed: norm(v) }
     }
 
     /// Torque and force for a motion relative to the fluid.

@@ -29,7 +29,7 @@ pub(super) fn fluid(m: &Model, d: &mut Fields) {
 }
 
 /// Calls `f` for every box and ellipsoid on which fluid forces act.
-pub(crate) fn shapes(m: &Model, d: &Fields, mut f: impl FnMut(&Frame, &Shape)) {
+pub(crate) fn shapes(m: &Model, d: &Fields, mut f: impl FnMut(&FluidFrame, &FluidShape)) {
     for b in 1..m.nbody {
         if m.body_mass[b] < MINVAL {
             continue;
@@ -37,33 +37,33 @@ pub(crate) fn shapes(m: &Model, d: &Fields, mut f: impl FnMut(&Frame, &Shape)) {
         let geoms = element_range(m.body_geomadr[b], m.body_geomnum[b]);
         let fluid = &rows::<FLUID>(&m.geom_fluid)[geoms.clone()];
         if fluid.iter().all(|s| s[0] <= 0.0) {
-            let frame = Frame::new(m, d, b, rows::<3>(&d.xipos)[b], rows::<9>(&d.ximat)[b]);
-            f(&frame, &Shape::Box(InertiaBox::new(m, b)));
+            let frame = FluidFrame::new(m, d, b, rows::<3>(&d.xipos)[b], rows::<9>(&d.ximat)[b]);
+            f(&frame, &FluidShape::Box(InertiaBox::new(m, b)));
             continue;
         }
         for (g, &fluid) in geoms.zip(fluid).filter(|(_, s)| s[0] != 0.0) {
-            let frame = Frame::new(m, d, b, rows::<3>(&d.geom_xpos)[g], rows::<9>(&d.geom_xmat)[g]);
-            f(&frame, &Shape::Ellipsoid(Ellipsoid::new(m, g, fluid)));
+            let frame = FluidFrame::new(m, d, b, rows::<3>(&d.geom_xpos)[g], rows::<9>(&d.geom_xmat)[g]);
+            f(&frame, &FluidShape::Ellipsoid(Ellipsoid::new(m, g, fluid)));
         }
     }
 }
 
 /// A frame that moves with a body, and its motion relative to the fluid: angular and linear velocity along the axes of the frame.
-pub(crate) struct Frame {
+pub(crate) struct FluidFrame {
     pub(crate) body: usize,
     pub(crate) pos: Vec3,
     pub(crate) mat: Mat3,
     pub(crate) motion: Spatial,
 }
 
-impl Frame {
-    fn new(m: &Model, d: &Fields, body: usize, pos: Vec3, mat: Mat3) -> Frame {
+impl FluidFrame {
+    fn new(m: &Model, d: &Fields, body: usize, pos: Vec3, mat: Mat3) -> FluidFrame {
         let cvel = &rows::<6>(&d.cvel)[body];
         let arm = sub(pos, rows::<3>(&d.subtree_com)[m.body_rootid[body] as usize]);
         let velocity = add(linear(cvel), cross(angular(cvel), arm));
         let turning = mat_t_mul_vec(&mat, angular(cvel));
         let moving = mat_t_mul_vec(&mat, sub(velocity, m.opt.wind));
-        Frame { body, pos, mat, motion: spatial(turning, moving) }
+        FluidFrame { body, pos, mat, motion: spatial(turning, moving) }
     }
 
     /// Adds the generalized force of a torque and a force along the axes of the frame.
@@ -75,17 +75,17 @@ impl Frame {
 }
 
 /// The shape for which fluid forces are computed.
-pub(crate) enum Shape {
+pub(crate) enum FluidShape {
     Box(InertiaBox),
     Ellipsoid(Ellipsoid),
 }
 
-impl Shape {
+impl FluidShape {
     /// Torque and force for a motion relative to the fluid, all along the axes of the frame.
     fn force(&self, motion: Spatial) -> Spatial {
         match self {
-            Shape::Box(b) => b.force(motion),
-            Shape::Ellipsoid(e) => e.force(motion),
+            FluidShape::Box(b) => b.force(motion),
+            FluidShape::Ellipsoid(e) => e.force(motion),
         }
     }
 }

@@ -250,11 +250,11 @@ mod tests {
             assert!(!free, "the path is free: {line}");
             let length = distance(ends[0], arc.from) + arc.length + distance(arc.to, ends[1]);
             let touch = [point(&x[25..]), point(&x[28..])];
-            let apart = distance(arc.from, touch[0]).max(distance(arc.to, touch[1]));
+            let separation = distance(arc.from, touch[0]).max(distance(arc.to, touch[1]));
             // The path has the same length at another position: the ends are opposite each other, or on one line with the side
             // site on the far side. Both directions have the same length, and rounding selects one of them.
             let by_side = x[20] == 1.0 && around(ends, &shape, None).is_some();
-            if !by_side && (length - total).abs() < 1e-12 && apart > 1e-3 {
+            if !by_side && (length - total).abs() < 1e-12 && separation > 1e-3 {
                 counts[3] += 1;
                 continue;
             }
@@ -266,16 +266,16 @@ mod tests {
             if arc.length == 0.0 {
                 // MuJoCo stops when its equation is satisfied to 1e-6. The shortest path is at most as long as its path.
                 assert!(
-                    (length - total).abs() < 1e-13 && apart < 2e-7,
-                    "{} {apart:e} in {line}",
+                    (length - total).abs() < 1e-13 && separation < 2e-7,
+                    "{} {separation:e} in {line}",
                     length - total
                 );
                 assert!(length <= total + 4.0 * f64::EPSILON * total, "{} longer in {line}", length - total);
                 counts[2] += 1;
             } else {
                 assert!(
-                    (length - total).abs() < 1e-12 && apart < 1e-12,
-                    "{} {apart:e} in {line}",
+                    (length - total).abs() < 1e-12 && separation < 1e-12,
+                    "{} {separation:e} in {line}",
                     length - total
                 );
                 counts[1] += 1;

@@ -1,15 +1,15 @@
 //! Adhesion: a force between a body and all bodies that it has contacts with.
 
-use super::Rows;
+use super::MomentRows;
 use crate::dynamics::jacobian;
-use crate::forces::Scratch;
+use crate::forces::ForceScratch;
 use crate::kinds::exclude;
 use crate::model::{Fields, Model};
 
 /// The moment of an adhesion actuator: the mean separation direction over the contacts of body `b`, with the sign of an
 /// attractive force. The length is zero.
-pub(super) fn adhesion(m: &Model, d: &Fields, b: usize, w: &mut Scratch, out: &mut Rows) -> f64 {
-    let Scratch { moment: dense, columns, .. } = w;
+pub(super) fn adhesion(m: &Model, d: &Fields, b: usize, w: &mut ForceScratch, out: &mut MomentRows) -> f64 {
+    let ForceScratch { moment: dense, columns, .. } = w;
     dense.fill(0.0);
     let mut count = 0;
     for contact in &d.contact {

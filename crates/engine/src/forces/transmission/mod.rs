@@ -10,7 +10,7 @@ mod space;
 
 use crate::dynamics::reflected::target;
 use crate::dynamics::walk;
-use crate::forces::{Scratch, tendon};
+use crate::forces::{ForceScratch, tendon};
 use crate::kinds::{disable, joint, trntype};
 use crate::math::*;
 use crate::model::{Fields, Model, asleep};
@@ -19,14 +19,14 @@ pub use actuator_constants::{at_default, critical_damping, reflected};
 
 /// The moment rows during their computation. The outputs of actuators are consecutive, so that rows are written one after the
 /// other.
-struct Rows {
+struct MomentRows {
     colind: Vec<i32>,
     values: Vec<f64>,
     /// The index of the next entry.
     at: usize,
 }
 
-impl Rows {
+impl MomentRows {
     /// Appends an entry to the current row, unless it is zero.
     #[cfg_attr(not(feature = "small"), inline(always))]
     fn push(&mut self, dof: usize, value: f64) {
@@ -54,7 +54,7 @@ pub fn row(d: &Fields, o: usize) -> std::ops::Range<usize> {
 /// The largest possible number of entries of the moments of all actuators (`nJmom`).
 pub fn entries(m: &Model) -> usize {
     let site_body = |s: usize| m.site_bodyid[s] as usize;
-    let of = |i: usize| match (m.actuator_trntype[i], target(m, i)) {
+    let entries_of_actuator = |i: usize| match (m.actuator_trntype[i], target(m, i)) {
         (trntype::JOINT | trntype::JOINTINPARENT, (j, _)) => joint::nv(m.jnt_type[j]),
         (trntype::TENDON, (t, _)) => m.ten_J_rownnz[t] as usize,
         (trntype::SITE, (s, None)) => walk::moving(m, site_body(s)).count(),
@@ -66,13 +66,13 @@ pub fn entries(m: &Model) -> usize {
         (trntype::SO3, _) => 3 * m.nv,
         _ => m.nv,
     };
-    (0..m.nactuator).map(of).sum()
+    (0..m.nactuator).map(entries_of_actuator).sum()
 }
 
 /// Computes `actuator_length`, `actuator_moment` and its pattern. A sleeping actuator keeps its lengths and has no moments.
-pub fn transmissions(m: &Model, d: &mut Fields, w: &mut Scratch) {
+pub fn transmissions(m: &Model, d: &mut Fields, w: &mut ForceScratch) {
     // Removed temporarily, so that the rest of the data can be read while they are written.
-    let mut out = Rows {
+    let mut out = MomentRows {
         colind: std::mem::take(&mut d.moment_colind),
         values: std::mem::take(&mut d.actuator_moment),
         at: 0,
@@ -99,7 +99,13 @@ pub fn transmissions(m: &Model, d: &mut Fields, w: &mut Scratch) {
 
 /// Computes output `o` of actuator `i` for transmissions other than to joints.
 #[inline(never)] // most actuators are motors of joints
-fn beyond_joints(m: &Model, d: &mut Fields, [i, o]: [usize; 2], w: &mut Scratch, out: &mut Rows) -> f64 {
+fn beyond_joints(
+    m: &Model,
+    d: &mut Fields,
+    [i, o]: [usize; 2],
+    w: &mut ForceScratch,
+    out: &mut MomentRows,
+) -> f64 {
     let gear = rows::<6>(&m.actuator_gear)[o];
     let nth = o - m.actuator_outadr[i] as usize;
     match (m.actuator_trntype[i], target(m, i)) {
@@ -133,7 +139,7 @@ fn quaternion(d: &Fields, q: usize) -> Quat {
 
 /// The length is the coordinate of a slide or hinge, the rotation along an axis for a ball joint, and zero for a free joint, on
 /// which only a force acts. A gear in the parent's frame is rotated to the child's frame, in which velocities are expressed.
-fn at_joint(m: &Model, d: &Fields, j: usize, in_parent: bool, gear: &[f64; 6], out: &mut Rows) -> f64 {
+fn at_joint(m: &Model, d: &Fields, j: usize, in_parent: bool, gear: &[f64; 6], out: &mut MomentRows) -> f64 {
     let (q, k) = (m.jnt_qposadr[j] as usize, m.jnt_dofadr[j] as usize);
     let [a, b, c, e, f, g] = *gear;
     let turned = |v: Vec3, q: usize| if in_parent { rotate(v, quat_conj(quaternion(d, q))) } else { v };
@@ -156,7 +162,7 @@ fn at_joint(m: &Model, d: &Fields, j: usize, in_parent: bool, gear: &[f64; 6], o
     }
 }
 
-impl Rows {
+impl MomentRows {
     /// Appends an entry, zero or not. Rows of joints and tendons have a fixed pattern.
     fn push_any(&mut self, dof: usize, value: f64) {
         if let (Some(k), Some(x)) = (self.colind.get_mut(self.at), self.values.get_mut(self.at)) {
@@ -167,7 +173,7 @@ impl Rows {
 }
 
 /// The length of tendon `t`, scaled by the gear.
-fn along_tendon(m: &Model, d: &Fields, t: usize, gear: f64, out: &mut Rows) -> f64 {
+fn along_tendon(m: &Model, d: &Fields, t: usize, gear: f64, out: &mut MomentRows) -> f64 {
     let row = tendon::row(m, t);
     for (&k, x) in m.ten_J_colind[row.clone()].iter().zip(&d.ten_J[row]) {
         out.push_any(k as usize, x * gear);

@@ -1,6 +1,6 @@
 //! Transmissions between frames: a wrench at a site, the pose of one site relative to another, a slider-crank.
 
-use super::Rows;
+use super::MomentRows;
 use crate::dynamics::jacobian::dof_motion;
 use crate::dynamics::walk::{Side, moving, moving_either};
 use crate::math::*;
@@ -27,7 +27,7 @@ fn parts([a, b, c, d, e, f]: [f64; 6]) -> (Vec3, Vec3) {
 }
 
 /// A force and torque along the axes of site `s`. The length is zero.
-pub(super) fn site(m: &Model, d: &Fields, s: usize, gear: [f64; 6], out: &mut Rows) -> f64 {
+pub(super) fn site(m: &Model, d: &Fields, s: usize, gear: [f64; 6], out: &mut MomentRows) -> f64 {
     let mat = &rows::<9>(&d.site_xmat)[s];
     let (force, torque) = parts(gear);
     let (force, torque) = (mat_mul_vec(mat, force), mat_mul_vec(mat, torque));
@@ -48,7 +48,7 @@ pub(super) fn pose_in_reference_frame(
     d: &Fields,
     [s, reference]: [usize; 2],
     gear: [f64; 6],
-    out: &mut Rows,
+    out: &mut MomentRows,
 ) -> f64 {
     let mat = &rows::<9>(&d.site_xmat)[reference];
     let points = [s, reference].map(|s| rows::<3>(&d.site_xpos)[s]);
@@ -83,7 +83,7 @@ pub(super) fn orientation(
     d: &Fields,
     [s, reference]: [usize; 2],
     axis: usize,
-    out: &mut Rows,
+    out: &mut MomentRows,
 ) -> f64 {
     let direction = column(&rows::<9>(&d.site_xmat)[s], axis);
     let start = out.at;
@@ -111,7 +111,7 @@ pub(super) fn crank(
     [crank, slider]: [usize; 2],
     rod: f64,
     gear: f64,
-    out: &mut Rows,
+    out: &mut MomentRows,
 ) -> f64 {
     let axis = column(&rows::<9>(&d.site_xmat)[slider], 2);
     let points = [crank, slider].map(|s| rows::<3>(&d.site_xpos)[s]);

@@ -34,7 +34,7 @@ struct Placement {
 
 /// A face of the first or of the second box: of the two faces normal to this axis, the one towards the other box.
 #[derive(Clone, Copy, Debug)]
-enum Face {
+enum BoxFace {
     First(usize),
     Second(usize),
 }
@@ -73,8 +73,8 @@ pub(super) fn box_box(first: &Shape, second: &Shape, margin: f64, out: &mut Vec<
         (Some(axis), _) => {
             out.extend(Some(placement.edge_contact(first, &axis)).filter(|contact| contact.dist <= limit));
         }
-        (None, Face::First(a)) => face_contacts(first, &placement, a, 1.0, margin, out),
-        (None, Face::Second(a)) => face_contacts(second, &placement.swapped(), a, -1.0, margin, out),
+        (None, BoxFace::First(a)) => face_contacts(first, &placement, a, 1.0, margin, out),
+        (None, BoxFace::Second(a)) => face_contacts(second, &placement.swapped(), a, -1.0, margin, out),
     }
 }
 
@@ -109,17 +109,17 @@ impl Placement {
     }
 
     /// The largest gap along a face normal, and its face; the first one of equal gaps.
-    fn largest_face_gap(&self) -> (f64, Face) {
+    fn largest_face_gap(&self) -> (f64, BoxFace) {
         let [along_first, along_second] = self.face_gaps();
-        let (mut best, mut face) = (f64::NEG_INFINITY, Face::First(0));
+        let (mut best, mut face) = (f64::NEG_INFINITY, BoxFace::First(0));
         for i in 0..3 {
             if along_first[i] > best + self.rounding {
-                (best, face) = (along_first[i], Face::First(i));
+                (best, face) = (along_first[i], BoxFace::First(i));
             }
         }
         for j in 0..3 {
             if along_second[j] > best + self.rounding {
-                (best, face) = (along_second[j], Face::Second(j));
+                (best, face) = (along_second[j], BoxFace::Second(j));
             }
         }
         (best, face)
@@ -150,10 +150,10 @@ impl Placement {
     }
 
     /// Whether the boxes get face contacts with this gap although the gap of two edges is larger.
-    fn prefers_face(&self, gap: f64, face: Face, axis: &EdgeAxis) -> bool {
+    fn prefers_face(&self, gap: f64, face: BoxFace, axis: &EdgeAxis) -> bool {
         let cosine = match face {
-            Face::First(a) => axis.normal[a],
-            Face::Second(a) => dot(axis.normal, self.rotation.map(|row| row[a])),
+            BoxFace::First(a) => axis.normal[a],
+            BoxFace::Second(a) => dot(axis.normal, self.rotation.map(|row| row[a])),
         };
         cosine.abs() > FACING && axis.gap < gap + FACE_PREFERRED * gap.abs()
     }

@@ -34,7 +34,7 @@ pub(super) fn capsule_box(capsule: &Shape, cuboid: &Shape, margin: f64, out: &mu
     }
     let half = mat_t_mul_vec(&cuboid.mat, scale(capsule.axis(2), half_length));
     let segment = Segment { centre: cuboid.local(capsule.pos), half };
-    let axis = Axis { segment, size: cuboid.size };
+    let axis = CapsuleAxis { segment, size: cuboid.size };
     let [from, to] = axis.nearest();
     let distance = norm(axis.offset_from_box(from));
     if distance <= axis.rounding() {
@@ -60,10 +60,10 @@ fn to_world(cuboid: &Shape, contact: ContactPoint) -> ContactPoint {
 fn ball(centre: Vec3, radius: f64, cuboid: &Shape, margin: f64) -> Option<ContactPoint> {
     let size = cuboid.size;
     let nearest: Vec3 = std::array::from_fn(|i| clip(centre[i], [-size[i], size[i]]));
-    let apart = sub(nearest, centre);
-    let gap = norm(apart);
+    let offset = sub(nearest, centre);
+    let gap = norm(offset);
     let (normal, gap) = if gap > MINVAL * (radius + size[0] + size[1] + size[2]) {
-        (scale(apart, 1.0 / gap), gap)
+        (scale(offset, 1.0 / gap), gap)
     } else {
         nearest_face(centre, size)
     };
@@ -92,12 +92,12 @@ fn nearest_face(p: Vec3, size: Vec3) -> (Vec3, f64) {
 }
 
 /// The axis of a capsule in the frame of a box with half sizes `size`.
-struct Axis {
+struct CapsuleAxis {
     segment: Segment,
     size: Vec3,
 }
 
-impl Axis {
+impl CapsuleAxis {
     /// Vector from the nearest point of the box to the point `t` of the axis.
     #[cfg_attr(not(feature = "small"), inline(always))]
     fn offset_from_box(&self, t: f64) -> Vec3 {

@@ -5,7 +5,7 @@ use std::ops::{ControlFlow, RangeInclusive};
 
 use super::{ContactPoint, MAX_CONTACTS, PairSettings};
 use crate::geometry::convex::{Convex, ConvexScratch, Nearest, nearest};
-use crate::geometry::{Field, Shape};
+use crate::geometry::{HeightField, Shape};
 use crate::math::*;
 
 /// Work units of a prism that is visited, and of a sample of the grid that is read.
@@ -103,7 +103,7 @@ fn bounds(body: &mut Convex) -> [[f64; 2]; 3] {
 }
 
 /// Whether a body within these bounds can be within a distance `reach` of the field.
-fn is_near(field: &Field, [[x0, x1], [y0, y1], [z0, z1]]: &[[f64; 2]; 3], reach: f64) -> bool {
+fn is_near(field: &HeightField, [[x0, x1], [y0, y1], [z0, z1]]: &[[f64; 2]; 3], reach: f64) -> bool {
     let [sx, sy, top, base] = field.size;
     let beyond = |low: f64, high: f64, lower: f64, upper: f64| low - reach > upper || high + reach < -lower;
     !(beyond(*x0, *x1, sx, sx) || beyond(*y0, *y1, sy, sy) || beyond(*z0, *z1, base, top))
@@ -112,7 +112,8 @@ fn is_near(field: &Field, [[x0, x1], [y0, y1], [z0, z1]]: &[[f64; 2]; 3], reach:
 /// A lower bound of the distance between a prism and a body within these bounds.
 fn gap(corners: &[Vec3; 6], bounds: &[[f64; 2]; 3]) -> f64 {
     norm(std::array::from_fn(|i| {
-        let reach = |least: f64, of: fn(f64, f64) -> f64| corners.iter().map(|p| p[i]).fold(least, of);
+        let reach =
+            |least: f64, extreme: fn(f64, f64) -> f64| corners.iter().map(|p| p[i]).fold(least, extreme);
         let (low, high) = (reach(f64::INFINITY, f64::min), reach(f64::NEG_INFINITY, f64::max));
         let [from, to] = bounds[i];
         (from - high).max(low - to).max(0.0)
@@ -123,7 +124,7 @@ fn gap(corners: &[Vec3; 6], bounds: &[[f64; 2]; 3]) -> f64 {
 /// in x and y. Prisms whose top, raised by `raise`, is more than `around` below the bounds are skipped. Samples and
 /// prisms count as work; the visit ends when the work limit is exceeded.
 fn each_prism(
-    field: &Field,
+    field: &HeightField,
     [x, y, [z0, _]]: &[[f64; 2]; 3],
     [around, raise]: [f64; 2],
     scratch: &mut ConvexScratch,

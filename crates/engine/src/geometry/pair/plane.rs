@@ -4,7 +4,7 @@
 use super::ContactPoint;
 use super::polygon::{Corners, largest_quadrilateral};
 use crate::geometry::Shape;
-use crate::geometry::support::{Body, climb, search};
+use crate::geometry::support::{ConvexBody, climb, search};
 use crate::math::*;
 
 /// A contact at a point of the other shape, moved by half its distance towards the plane.
@@ -113,7 +113,7 @@ pub(super) fn cuboid(plane: &Shape, cuboid: &Shape, margin: f64, out: &mut Vec<C
 /// The contact at the lowest point of an ellipsoid.
 pub(super) fn ellipsoid(plane: &Shape, ellipsoid: &Shape, margin: f64, out: &mut Vec<ContactPoint>) {
     let normal = plane.axis(2);
-    let lowest = Body::new(ellipsoid).support(scale(normal, -1.0));
+    let lowest = ConvexBody::new(ellipsoid).support(scale(normal, -1.0));
     let dist = dot(sub(lowest, plane.pos), normal);
     if dist <= margin {
         out.push(touch(normal, dist, lowest));

@@ -37,7 +37,7 @@ pub(super) type Corners = List<Vec3, MAX_CORNERS>;
 
 /// A face of a shape: its index and its outward unit normal, world frame.
 #[derive(Clone, Copy, Debug, Default)]
-struct Face {
+struct PolygonFace {
     index: usize,
     normal: Vec3,
 }
@@ -50,13 +50,13 @@ struct Feature {
     /// Kind of the feature: 3 for a face, 2 for an edge, 1 for a corner.
     dim: usize,
     /// The face itself, the faces adjacent to the edge, or the faces adjacent to the corner.
-    faces: List<Face, MAX_ADJACENT>,
+    faces: List<PolygonFace, MAX_ADJACENT>,
     /// The edge itself, or the edges at the corner.
     edges: List<Edge, MAX_ADJACENT>,
 }
 
 /// A face, and a polygon or an edge that lies on it.
-struct Patch {
+struct ContactPatch {
     /// The corners of the face, clockwise as seen from outside, and its normal.
     face: Corners,
     normal: Vec3,
@@ -87,10 +87,10 @@ pub(super) fn contacts(
 }
 
 /// The area shared by two shapes that overlap along a direction; `None` if it is a single point.
-fn patch(a: &Shape, b: &Shape, direction: Vec3) -> Option<Patch> {
+fn patch(a: &Shape, b: &Shape, direction: Vec3) -> Option<ContactPatch> {
     let (of_a, of_b) = (Feature::facing(a, direction), Feature::facing(b, scale(direction, -1.0)));
     if let Some((fa, fb)) = facing(a, b, direction, &of_a, &of_b) {
-        return Some(Patch {
+        return Some(ContactPatch {
             face: corners(a, fa.index),
             normal: fa.normal,
             lying: corners(b, fb.index),
@@ -101,7 +101,7 @@ fn patch(a: &Shape, b: &Shape, direction: Vec3) -> Option<Patch> {
     if of_a.dim < 3 && of_a.dim <= of_b.dim {
         let (edge, face) = edge_on_face(&of_a, b, &of_b)?;
         let direction = scale(face.normal, -1.0);
-        return Some(Patch {
+        return Some(ContactPatch {
             face: corners(b, face.index),
             normal: face.normal,
             lying: edge,
@@ -110,7 +110,7 @@ fn patch(a: &Shape, b: &Shape, direction: Vec3) -> Option<Patch> {
         });
     }
     let (edge, face) = edge_on_face(&of_b, a, &of_a)?;
-    Some(Patch {
+    Some(ContactPatch {
         face: corners(a, face.index),
         normal: face.normal,
         lying: edge,
@@ -121,13 +121,19 @@ fn patch(a: &Shape, b: &Shape, direction: Vec3) -> Option<Patch> {
 
 /// The two faces that face each other. Of several pairs, the one with the smallest penetration depth along its normal
 /// is chosen; of equal depths, the one nearest to the direction.
-fn facing(a: &Shape, b: &Shape, direction: Vec3, of_a: &Feature, of_b: &Feature) -> Option<(Face, Face)> {
+fn facing(
+    a: &Shape,
+    b: &Shape,
+    direction: Vec3,
+    of_a: &Feature,
+    of_b: &Feature,
+) -> Option<(PolygonFace, PolygonFace)> {
     let pairs = of_a.faces.all().iter().flat_map(|fa| of_b.faces.all().iter().map(move |fb| (fa, fb)));
     let mut pairs = pairs.filter(|(fa, fb)| dot(fa.normal, fb.normal) < -FACING);
     let (&fa, &fb) = pairs.next()?;
     let (mut of_a, mut of_b) = (Convex::new(a), Convex::new(b));
     // The contact normal is opposite to the normal of the second face.
-    let mut rank = |fa: Face, fb: Face| {
+    let mut rank = |fa: PolygonFace, fb: PolygonFace| {
         let (ahead, back) = (scale(fb.normal, -1.0), fb.normal);
         let depth = dot(ahead, sub(of_a.support(ahead), of_b.support(back)));
         [depth, dot(sub(fb.normal, fa.normal), direction)]
@@ -143,7 +149,7 @@ fn facing(a: &Shape, b: &Shape, direction: Vec3, of_a: &Feature, of_b: &Feature)
 
 /// The edge of one feature that is most nearly parallel to a face of the other, and this face. The ends of cylinders
 /// have contacts with faces only.
-fn edge_on_face(feature: &Feature, on: &Shape, other: &Feature) -> Option<(Corners, Face)> {
+fn edge_on_face(feature: &Feature, on: &Shape, other: &Feature) -> Option<(Corners, PolygonFace)> {
     if on.kind == geom::CYLINDER || feature.dim == 3 {
         return None;
     }
@@ -187,7 +193,7 @@ impl Feature {
     /// Reduces a corner to the adjacent face, or else the adjacent edge, that is normal to the direction, if there is
     /// one.
     fn narrowed(self, direction: Vec3) -> Feature {
-        let along = |f: &&Face| dot(f.normal, direction);
+        let along = |f: &&PolygonFace| dot(f.normal, direction);
         let steepest = self.faces.all().iter().max_by(|f, g| along(f).total_cmp(&along(g)));
         if let Some(&face) = steepest.filter(|f| norm(cross(f.normal, direction)) < MAX_CONTACT_ANGLE) {
             let mut faces = List::new();
@@ -216,7 +222,7 @@ fn cylinder(s: &Shape, direction: Vec3, out: &mut Feature) -> usize {
     let upper = slope >= 0.0;
     if slope.abs() > FACING {
         let normal = scale(axis, if upper { 1.0 } else { -1.0 });
-        out.faces.push(Face { index: usize::from(!upper), normal });
+        out.faces.push(PolygonFace { index: usize::from(!upper), normal });
         return 3;
     }
     if slope.abs() < EDGE_ON_FACE {
@@ -234,7 +240,7 @@ fn box_corner(s: &Shape, corner: Vec3, out: &mut Feature) {
     for axis in 0..3 {
         let upper = local[axis] > 0.0;
         let normal = scale(s.axis(axis), if upper { 1.0 } else { -1.0 });
-        out.faces.push(Face { index: 2 * axis + usize::from(!upper), normal });
+        out.faces.push(PolygonFace { index: 2 * axis + usize::from(!upper), normal });
         out.edges.push([corner, add_scaled(corner, normal, -2.0 * s.size[axis])]);
     }
 }
@@ -244,7 +250,7 @@ fn mesh_corner(s: &Shape, hull_faces: &HullFaces, vertex: usize, corner: Vec3, o
     for (index, at) in hull_faces.around(vertex) {
         let list = hull_faces.vertices(index);
         let other = list[(at + 1) % list.len()] as usize;
-        out.faces.push(Face { index, normal: mat_mul_vec(&s.mat, hull_faces.normal(index)) });
+        out.faces.push(PolygonFace { index, normal: mat_mul_vec(&s.mat, hull_faces.normal(index)) });
         out.edges.push([corner, s.world(s.mesh().vertex(other))]);
     }
 }
@@ -280,7 +286,7 @@ fn corners(s: &Shape, face: usize) -> Corners {
     out
 }
 
-impl Patch {
+impl ContactPatch {
     /// Appends a contact at every corner below the face; of more than four corners, at those that span the largest
     /// area.
     fn contacts(mut self, out: &mut Vec<ContactPoint>) {

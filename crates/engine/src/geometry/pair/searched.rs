@@ -62,7 +62,7 @@ fn perturb_rotations(
     out: &mut Vec<ContactPoint>,
 ) {
     let start = out.len() - 1;
-    let apart = DISTINCT * a.bounding_radius().min(b.bounding_radius());
+    let min_distance = DISTINCT * a.bounding_radius().min(b.bounding_radius());
     let frame = frame(first.normal);
     for axis in [[frame[3], frame[4], frame[5]], [frame[6], frame[7], frame[8]]] {
         for angle in [-PERTURBATION_ANGLE, PERTURBATION_ANGLE] {
@@ -70,7 +70,7 @@ fn perturb_rotations(
             let back = std::array::from_fn(|i| turn[3 * (i % 3) + i / 3]);
             let (a, b) = (turned(a, first.pos, &turn), turned(b, first.pos, &back));
             let Some(found) = deepest(&a, &b, margin, settings, scratch) else { continue };
-            if out[start..].iter().all(|t| norm(sub(t.pos, found.pos)) > apart) {
+            if out[start..].iter().all(|t| norm(sub(t.pos, found.pos)) > min_distance) {
                 out.push(ContactPoint { dist: first.dist, ..found });
             }
         }

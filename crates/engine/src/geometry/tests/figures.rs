@@ -9,7 +9,7 @@ const SAME: f64 = 1e-9;
 
 /// Statistics of the pairs of two types.
 #[derive(Default)]
-struct Row {
+struct FigureRow {
     cases: usize,
     touching: usize,
     number: usize,
@@ -24,7 +24,7 @@ struct Row {
 
 /// Statistics by pair of types.
 #[derive(Default)]
-pub(super) struct Figures(BTreeMap<String, Row>);
+pub(super) struct Figures(BTreeMap<String, FigureRow>);
 
 impl Figures {
     /// Adds a case with contacts of ten numbers each: distance, position, normal, first tangent. Both lists are in
@@ -34,8 +34,8 @@ impl Figures {
         r.cases += 1;
         r.touching += usize::from(!theirs.is_empty());
         r.number += usize::from(theirs.len() == ours.len());
-        let apart = |(x, y): (&f64, &f64)| (x - y).abs() <= SAME;
-        r.same += usize::from(theirs.len() == ours.len() && theirs.iter().zip(ours).all(apart));
+        let is_equal = |(x, y): (&f64, &f64)| (x - y).abs() <= SAME;
+        r.same += usize::from(theirs.len() == ours.len() && theirs.iter().zip(ours).all(is_equal));
         let deepest = |list: &[f64]| list.chunks(10).map(|c| c[0]).reduce(f64::min);
         if let (Some(x), Some(y)) = (deepest(theirs), deepest(ours)) {
             r.depth = r.depth.max((x - y).abs());
@@ -57,7 +57,7 @@ impl Figures {
              |---|---:|---:|---:|---:|---:|\n",
         );
         for (pair, r) in &self.0 {
-            let Row { cases, touching, number, same, depth, .. } = r;
+            let FigureRow { cases, touching, number, same, depth, .. } = r;
             let _ = writeln!(text, "| {pair} | {cases} | {touching} | {number} | {same} | {depth:.0e} |");
         }
         text
@@ -67,7 +67,7 @@ impl Figures {
     pub(super) fn distance_table(&self) -> String {
         let mut text =
             String::from("| pair | cases | within 1e-9 | largest difference, m |\n|---|---:|---:|---:|\n");
-        for (pair, Row { distances, near, distance, .. }) in &self.0 {
+        for (pair, FigureRow { distances, near, distance, .. }) in &self.0 {
             let _ = writeln!(text, "| {pair} | {distances} | {near} | {distance:.0e} |");
         }
         text

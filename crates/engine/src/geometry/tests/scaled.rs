@@ -74,19 +74,19 @@ fn contacts_and_distances_scale_with_the_scene() {
     let is_case = |l: &&str| l.starts_with("distance ") || l.starts_with("contact");
     let lines: Vec<&str> = text.lines().filter(is_case).step_by(2).chain(MORE.lines()).collect();
     assert!(lines.len() > 800, "{}", lines.len());
-    let wanted: Vec<_> = lines.iter().map(|line| answer(&whole, line, 1.0)).collect();
-    let touching = wanted.iter().filter(|(touches, _)| !touches.is_empty()).count();
+    let expected: Vec<_> = lines.iter().map(|line| answer(&whole, line, 1.0)).collect();
+    let touching = expected.iter().filter(|(touches, _)| !touches.is_empty()).count();
     assert!(touching > 300, "{touching}");
     for power in POWERS {
         let by = 2f64.powi(power);
         let assets = assets_scaled(text, by);
         let mut wrong: BTreeMap<String, Vec<String>> = BTreeMap::new();
-        for (line, want) in lines.iter().zip(&wanted) {
+        for (line, expected) in lines.iter().zip(&expected) {
             let got = answer(&assets, line, by);
-            if got != *want && format!("{got:?}") != format!("{want:?}") {
+            if got != *expected && format!("{got:?}") != format!("{expected:?}") {
                 let words: Vec<&str> = line.split_whitespace().collect();
                 let kinds = format!("{} {}", words[1], words[13]);
-                wrong.entry(kinds).or_default().push(format!("{line}\n  {want:?}\n  {got:?}"));
+                wrong.entry(kinds).or_default().push(format!("{line}\n  {expected:?}\n  {got:?}"));
             }
         }
         for (kinds, list) in &wrong {
@@ -111,12 +111,12 @@ fn rays_scale_with_the_scene_and_with_their_direction() {
             let (shape, large) = (whole.shape(&mut words), scaled(assets.shape(&mut again), by));
             let v: Vec<f64> = words.map(|w| w.parse().unwrap()).collect();
             let (from, along) = ([v[0], v[1], v[2]], [v[3], v[4], v[5]]);
-            let want = ray_shape(&shape, from, along, &mut 0);
-            hits += usize::from(want.is_some());
+            let expected = ray_shape(&shape, from, along, &mut 0);
+            hits += usize::from(expected.is_some());
             for short in [1.0, 2f64.powi(-60), 2f64.powi(40)] {
                 let got = ray_shape(&large, scale(from, by), scale(along, short), &mut 0);
                 let got = got.map(|h| ray::Hit { distance: h.distance / by * short, ..h });
-                assert_eq!(got, want, "2^{power}, a direction of {short:e}: {line}");
+                assert_eq!(got, expected, "2^{power}, a direction of {short:e}: {line}");
             }
         }
     }

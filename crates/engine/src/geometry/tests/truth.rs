@@ -184,7 +184,7 @@ impl Solid {
 /// Results of the cases of a pair: numbers of cases, and largest errors.
 #[derive(Default)]
 struct Tally {
-    apart: usize,
+    separated: usize,
     deep: usize,
     /// Largest error of distances, and of depths above and below the reference, m.
     distance: f64,
@@ -214,23 +214,23 @@ fn outside(s: &Shape, p: Vec3, directions: &[Vec3]) -> f64 {
 }
 
 /// Error of a signed distance, m.
-enum Error {
+enum DistanceError {
     /// Error of the distance of separate bodies.
     Distance(f64),
     /// Error of the depth of overlapping bodies: positive if it is larger than the reference.
     Penetration(f64),
 }
 
-fn error(a: &Shape, b: &Shape, n: &Nearest, tolerance: f64) -> Error {
+fn error(a: &Shape, b: &Shape, n: &Nearest, tolerance: f64) -> DistanceError {
     if n.dist > tolerance {
         let [p, q] = n.witness;
         let parted = -reach(a, b, n.normal);
-        return Error::Distance((norm(sub(q, p)) - n.dist).abs().max((parted - n.dist).abs()));
+        return DistanceError::Distance((norm(sub(q, p)) - n.dist).abs().max((parted - n.dist).abs()));
     }
     let corners = |s: &Shape| matches!(s.kind, geom::BOX | geom::MESH);
     let depth =
         if corners(a) && corners(b) { depth_by_axes(a, b) } else { depth_by_sampling(a, b, n.normal) };
-    Error::Penetration(-n.dist - depth)
+    DistanceError::Penetration(-n.dist - depth)
 }
 
 /// Whether the signed distance of two shapes agrees with the reference.
@@ -238,7 +238,8 @@ pub(super) fn is_true(a: &Shape, b: &Shape) -> bool {
     let effort = super::precise_settings().effort;
     let found = nearest(&mut Convex::new(a), &mut Convex::new(b), 1e3, effort, &mut ConvexScratch::default());
     found.is_some_and(|n| {
-        let (Error::Distance(error) | Error::Penetration(error)) = error(a, b, &n, effort.tolerance);
+        let (DistanceError::Distance(error) | DistanceError::Penetration(error)) =
+            error(a, b, &n, effort.tolerance);
         error.abs() < 1e-9 * (norm(a.size) + norm(b.size))
     })
 }
@@ -282,11 +283,11 @@ fn check_pair(kind1: i32, kind2: i32, cases: usize) -> Tally {
             "outside",
         );
         match error(&a, &b, &n, settings.effort.tolerance) {
-            Error::Distance(error) => {
+            DistanceError::Distance(error) => {
                 most(&mut t, |t| &mut t.distance, error, "distance");
-                t.apart += 1;
+                t.separated += 1;
             }
-            Error::Penetration(error) => {
+            DistanceError::Penetration(error) => {
                 most(&mut t, |t| &mut t.above, error, "deeper than the reference");
                 most(&mut t, |t| &mut t.below, -error, "less deep than the reference");
                 t.deep += 1;
@@ -330,7 +331,7 @@ fn signed_distances_are_true() {
             "| {}-{} | {} | {:.0e} | {} | {:.0e} | {:.0e} | {:.0e} |\n",
             super::KINDS[kind1 as usize],
             super::KINDS[kind2 as usize],
-            t.apart,
+            t.separated,
             t.distance,
             t.deep,
             t.above,
@@ -456,7 +457,7 @@ fn distances_of_height_fields_are_those_of_their_prisms() {
             [geom::SPHERE, geom::CAPSULE, geom::ELLIPSOID, geom::CYLINDER, geom::BOX, geom::MESH][case % 6];
         let mut ground = Shape::new(geom::HFIELD, [1.2, 0.9, 0.3], r.vector(-0.2, 0.2), r.turn());
         ground.field =
-            Some(crate::geometry::Field { size: [1.2, 0.9, 0.5, 0.3], nrow: 5, ncol: 7, data: &data });
+            Some(crate::geometry::HeightField { size: [1.2, 0.9, 0.5, 0.3], nrow: 5, ncol: 7, data: &data });
         let mut b = shape(kind, &mut r, &solids);
         b.pos = r.vector(-2.5, 2.5);
         let most = [0.0, 0.3, 1e3][r.below(3)];

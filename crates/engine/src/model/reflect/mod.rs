@@ -95,8 +95,8 @@ impl FieldId {
     /// with the state.
     pub fn rows(self) -> Option<FieldId> {
         match dimensions(self).first()? {
-            Dimension::Size(id) => Some(FieldId(*id as u16)),
-            Dimension::Fixed(_) | Dimension::Open => None,
+            FieldDimension::Size(id) => Some(FieldId(*id as u16)),
+            FieldDimension::Fixed(_) | FieldDimension::Open => None,
         }
     }
 
@@ -303,7 +303,7 @@ pub fn shape(m: &Model, field: FieldId) -> Vec<Option<usize>> {
 
 /// One dimension of a field.
 #[derive(Clone, Copy)]
-enum Dimension {
+enum FieldDimension {
     /// The same for every model.
     Fixed(usize),
     /// A size of the model.
@@ -312,26 +312,26 @@ enum Dimension {
     Open,
 }
 
-impl Dimension {
+impl FieldDimension {
     /// The length for this model, or `None` if it changes with the state.
     fn size_in(self, m: &Model) -> Option<usize> {
         match self {
-            Dimension::Fixed(n) => Some(n),
-            Dimension::Size(id) => match m.cell(id).view() {
+            FieldDimension::Fixed(n) => Some(n),
+            FieldDimension::Size(id) => match m.cell(id).view() {
                 View::Size(n) => Some(n),
                 _ => None,
             },
-            Dimension::Open => None,
+            FieldDimension::Open => None,
         }
     }
 }
 
 /// The dimensions of a field. Names are resolved once for all fields, because a reset reads the dimensions of every array.
-fn dimensions(field: FieldId) -> &'static [Dimension] {
-    static ALL: LazyLock<Vec<Vec<Dimension>>> = LazyLock::new(|| {
+fn dimensions(field: FieldId) -> &'static [FieldDimension] {
+    static ALL: LazyLock<Vec<Vec<FieldDimension>>> = LazyLock::new(|| {
         let named = |dim: &str| match dim.parse() {
-            Ok(n) => Dimension::Fixed(n),
-            Err(_) => size_id(dim).map_or(Dimension::Open, Dimension::Size),
+            Ok(n) => FieldDimension::Fixed(n),
+            Err(_) => size_id(dim).map_or(FieldDimension::Open, FieldDimension::Size),
         };
         fields().map(|f| f.info().shape.iter().map(|dim| named(dim)).collect()).collect()
     });
@@ -345,7 +345,7 @@ fn size_id(name: &str) -> Option<ModelId> {
 
 /// The size of this name (`nq`, `nbody`, …), or `None` if the model has no such size.
 pub fn size(m: &Model, name: &str) -> Option<usize> {
-    Dimension::Size(size_id(name)?).size_in(m)
+    FieldDimension::Size(size_id(name)?).size_in(m)
 }
 
 /// Number of elements of a field, computed from the sizes of the model; 0 if a size is not known. Does not allocate, because a

@@ -33,15 +33,15 @@ fn states_are_those_of_mujoco() {
     let mut m = model();
     let Workspace { fields: mut d, scratch: mut s } = Workspace::new(&m);
     let mut compared = 0;
-    for (name, want) in recorded() {
+    for (name, expected) in recorded() {
         let close = |got: &[f64]| {
-            assert_eq!(got.len(), want.len(), "{name}");
-            let apart =
-                got.iter().zip(&want).fold(0.0f64, |s, (a, b)| s.max((a - b).abs() / (1.0 + b.abs())));
-            assert!(apart < 1e-12, "{name}: {apart:e}");
+            assert_eq!(got.len(), expected.len(), "{name}");
+            let difference =
+                got.iter().zip(&expected).fold(0.0f64, |s, (a, b)| s.max((a - b).abs() / (1.0 + b.abs())));
+            assert!(difference < 1e-12, "{name}: {difference:e}");
         };
         match name {
-            "set" => set(&m, &mut d, &want, INTEGRATION).unwrap(),
+            "set" => set(&m, &mut d, &expected, INTEGRATION).unwrap(),
             "step" => {
                 (0..10).for_each(|_| step(&m, &mut d, &mut s));
                 close(&state(&m, &d, INTEGRATION));
@@ -56,7 +56,7 @@ fn states_are_those_of_mujoco() {
                 let view = reflect::view(&m, &d, field);
                 close(&(0..view.len()).map(|i| view.get(i).unwrap()).collect::<Vec<_>>());
             }
-            signature => assert_eq!(state(&m, &d, signature.parse().unwrap()), want, "{signature}"),
+            signature => assert_eq!(state(&m, &d, signature.parse().unwrap()), expected, "{signature}"),
         }
         compared += 1;
     }
@@ -85,11 +85,11 @@ fn parts_of_a_state_are_extracted_and_copied() {
 fn nonzero_is_true() {
     let m = model();
     let mut d = Workspace::new(&m).fields;
-    for (values, want) in
+    for (values, expected) in
         [([0.5, 0.0], [true, false]), ([f64::NAN, -0.0], [true, false]), ([0.0, 256.0], [false, true])]
     {
         set(&m, &mut d, &values, EQ_ACTIVE).unwrap();
-        assert_eq!(d.eq_active, want);
+        assert_eq!(d.eq_active, expected);
     }
 }
 
@@ -102,7 +102,7 @@ fn wrong_lists_change_nothing() {
         assert_eq!(size(&m, sig), Err(StateError::Signature(sig)));
         assert_eq!(set(&m, &mut d, &[], sig), Err(StateError::Signature(sig)));
     }
-    let length = StateError::Length { wanted: m.nq, found: 3 };
+    let length = StateError::Length { expected: m.nq, found: 3 };
     assert_eq!(set(&m, &mut d, &[1.0; 3], QPOS), Err(length));
     assert_eq!(get(&d, &mut [0.0; 3], QPOS), Err(length));
     let missing = extract(&m, &[1.0], TIME, &mut vec![0.0; m.nq], QPOS);

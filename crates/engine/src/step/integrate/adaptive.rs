@@ -10,7 +10,7 @@ use super::flow;
 use crate::math::combine;
 use crate::model::{Fields, Model};
 use crate::step::stages::Flow;
-use crate::step::workspace::Scratch;
+use crate::step::workspace::StepScratch;
 
 /// Lines of the table: 2, 4, … steps.
 const LINES: usize = 8;
@@ -23,7 +23,7 @@ const HALVINGS: u32 = 14;
 const PARTS: usize = 4096;
 
 /// A step.
-pub(super) fn adaptive(m: &Model, d: &mut Fields, s: &mut Scratch) {
+pub(super) fn adaptive(m: &Model, d: &mut Fields, s: &mut StepScratch) {
     let h = m.opt.timestep;
     // Memory for the table, and for three states of the midpoint rule.
     let mut w = flow::enter(m, d, s, LINES + 3);
@@ -56,7 +56,7 @@ pub(super) fn adaptive(m: &Model, d: &mut Fields, s: &mut Scratch) {
 }
 
 /// Computes a part of the step, to `w.end`. Returns whether it has the required accuracy.
-fn extrapolate(m: &Model, d: &mut Fields, s: &mut Scratch, w: &mut Flow, h: f64) -> bool {
+fn extrapolate(m: &Model, d: &mut Fields, s: &mut StepScratch, w: &mut Flow, h: f64) -> bool {
     let n = w.start.len();
     if n == 0 {
         return true;
@@ -104,7 +104,15 @@ fn larger(error: f64, x: f64) -> f64 {
 
 /// Gragg's method: an Euler step, then steps of twice the length from the second-last state, with smoothing at the end. The
 /// first of the three states becomes the result.
-fn midpoint(m: &Model, d: &mut Fields, s: &mut Scratch, w: &Flow, h: f64, steps: usize, states: &mut [f64]) {
+fn midpoint(
+    m: &Model,
+    d: &mut Fields,
+    s: &mut StepScratch,
+    w: &Flow,
+    h: f64,
+    steps: usize,
+    states: &mut [f64],
+) {
     let n = w.first.len();
     let (older, rest) = states.split_at_mut(n);
     let (old, rest) = rest.split_at_mut(n);

@@ -3,17 +3,17 @@
 use super::flow;
 use crate::math::combine;
 use crate::model::{Fields, Model};
-use crate::step::workspace::Scratch;
+use crate::step::workspace::StepScratch;
 
 /// A method. Stage s starts from the state at the start of the step plus h times the slopes of the previous stages, with the
 /// weights of its row. The result uses `weights`. The first stage is the state at the start itself and has no row.
-pub(super) struct Method {
+pub(super) struct ButcherTableau {
     rows: &'static [&'static [f64]],
     weights: &'static [f64],
 }
 
 /// The classic method of fourth order (Kutta 1901).
-pub(super) const FOURTH: Method = Method {
+pub(super) const FOURTH: ButcherTableau = ButcherTableau {
     rows: &[&[0.5], &[0.0, 0.5], &[0.0, 0.0, 1.0]],
     weights: &[1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0],
 };
@@ -23,7 +23,7 @@ const R: f64 = 4.582_575_694_955_84;
 
 /// A method of eighth order with eleven stages (Cooper and Verner 1972, *Some explicit Runge-Kutta methods of high order*), whose
 /// stages are at the nodes of Lobatto quadrature.
-pub(super) const EIGHTH: Method = Method {
+pub(super) const EIGHTH: ButcherTableau = ButcherTableau {
     rows: &[
         &[1.0 / 2.0],
         &[1.0 / 4.0, 1.0 / 4.0],
@@ -77,7 +77,7 @@ pub(super) const EIGHTH: Method = Method {
 };
 
 /// Makes a step.
-pub(super) fn explicit(m: &Model, d: &mut Fields, s: &mut Scratch, method: &Method) {
+pub(super) fn explicit(m: &Model, d: &mut Fields, s: &mut StepScratch, method: &ButcherTableau) {
     let h = m.opt.timestep;
     let mut w = flow::enter(m, d, s, method.weights.len());
     let n = w.start.len();

@@ -8,17 +8,17 @@
 //!
 //! The state is one list: u and v, each of length nv, and the activations.
 
-use super::{Slopes, advance, integrate_pos};
+use super::{RateOverrides, advance, integrate_pos};
 use crate::forces::actuation;
 use crate::kinds::joint;
 use crate::math::*;
 use crate::model::{Fields, Model};
 use crate::step::forward;
 use crate::step::stages::Flow;
-use crate::step::workspace::Scratch;
+use crate::step::workspace::StepScratch;
 
 /// Starts a step of a method with this number of stages. The forces of the current state must be known. `finish` ends the step.
-pub(super) fn enter(m: &Model, d: &mut Fields, s: &mut Scratch, stages: usize) -> Flow {
+pub(super) fn enter(m: &Model, d: &mut Fields, s: &mut StepScratch, stages: usize) -> Flow {
     let mut w = std::mem::take(&mut s.flow);
     w.make_room(m, stages);
     (w.began, w.energy) = (d.time, d.energy);
@@ -71,7 +71,7 @@ fn known_slope(m: &Model, d: &Fields, state: &[f64], out: &mut [f64]) {
 pub(super) fn slope(
     m: &Model,
     d: &mut Fields,
-    s: &mut Scratch,
+    s: &mut StepScratch,
     w: &Flow,
     after: f64,
     state: &[f64],
@@ -101,7 +101,7 @@ fn rotation_vector_rate(u: Vec3, w: Vec3) -> Vec3 {
 }
 
 /// Continues from the end of a part of the step, which becomes the start of the next part. Computes its forces.
-pub(super) fn begin_next_part(m: &Model, d: &mut Fields, s: &mut Scratch, w: &mut Flow, part: f64) {
+pub(super) fn begin_next_part(m: &Model, d: &mut Fields, s: &mut StepScratch, w: &mut Flow, part: f64) {
     let end = std::mem::take(&mut w.end);
     place(m, d, w, part, &end);
     actuation::arrive(m, d, &end[2 * m.nv..]);
@@ -111,7 +111,7 @@ pub(super) fn begin_next_part(m: &Model, d: &mut Fields, s: &mut Scratch, w: &mu
 }
 
 /// Ends the step. `w.end` must contain the state at its end.
-pub(super) fn finish(m: &Model, d: &mut Fields, s: &mut Scratch, mut w: Flow) {
+pub(super) fn finish(m: &Model, d: &mut Fields, s: &mut StepScratch, mut w: Flow) {
     let h = m.opt.timestep;
     let (u, rest) = w.end.split_at_mut(m.nv);
     let (v, act) = rest.split_at_mut(m.nv);
@@ -128,7 +128,12 @@ pub(super) fn finish(m: &Model, d: &mut Fields, s: &mut Scratch, mut w: Flow) {
         m,
         d,
         s,
-        Slopes { reached: Some(act), acceleration: Some(v), velocity: Some(u), ..Slopes::default() },
+        RateOverrides {
+            reached: Some(act),
+            acceleration: Some(v),
+            velocity: Some(u),
+            ..RateOverrides::default()
+        },
     );
     s.flow = w;
 }

@@ -9,7 +9,7 @@ use super::explicit::along;
 use super::flow;
 use crate::model::{Fields, Model};
 use crate::step::stages::Flow;
-use crate::step::workspace::Scratch;
+use crate::step::workspace::StepScratch;
 
 /// √15
 const R: f64 = 3.872_983_346_207_417;
@@ -27,7 +27,7 @@ const PARTS: usize = 64;
 
 /// Makes a step. If the iteration does not converge, the step is divided into equal parts, up to a limit. Beyond the limit, the
 /// result of the iteration is used although it has not converged.
-pub(super) fn gauss(m: &Model, d: &mut Fields, s: &mut Scratch) {
+pub(super) fn gauss(m: &Model, d: &mut Fields, s: &mut StepScratch) {
     let h = m.opt.timestep;
     // Memory for three stages, and for the next iterate of one.
     let mut w = flow::enter(m, d, s, 4);
@@ -43,7 +43,7 @@ pub(super) fn gauss(m: &Model, d: &mut Fields, s: &mut Scratch) {
 }
 
 /// Computes a part of the step, to `w.end`. Returns whether its stages converged.
-fn stages_converge(m: &Model, d: &mut Fields, s: &mut Scratch, w: &mut Flow, h: f64) -> bool {
+fn stages_converge(m: &Model, d: &mut Fields, s: &mut StepScratch, w: &mut Flow, h: f64) -> bool {
     let n = w.start.len();
     let (mut rows, mut end) = (std::mem::take(&mut w.rows), std::mem::take(&mut w.end));
     let (stages, rest) = rows.split_at_mut(3 * n);

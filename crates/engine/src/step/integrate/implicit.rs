@@ -6,10 +6,10 @@ use crate::dynamics::mass;
 use crate::forces::derivative::{self, Medium, sparse};
 use crate::math::{Spatial, solve_six};
 use crate::model::{Fields, Model, Warning};
-use crate::step::workspace::Scratch;
+use crate::step::workspace::StepScratch;
 
 /// The integrator `implicit`: uses the whole matrix D.
-pub(super) fn implicit(m: &Model, d: &mut Fields, s: &mut Scratch) {
+pub(super) fn implicit(m: &Model, d: &mut Fields, s: &mut StepScratch) {
     let w = &mut s.derivative;
     derivative::forces(m, d, w, Medium::Whole);
     derivative::subtract_bias(m, d, w);
@@ -24,7 +24,7 @@ pub(super) fn implicit(m: &Model, d: &mut Fields, s: &mut Scratch) {
 
 /// The integrator `implicitfast`: D without the derivative of the bias force. The lower triangle is used for both, so that the
 /// matrix is symmetric. Free rigid bodies are solved with the whole matrix D, six by six.
-pub(super) fn implicitfast(m: &Model, d: &mut Fields, s: &mut Scratch) {
+pub(super) fn implicitfast(m: &Model, d: &mut Fields, s: &mut StepScratch) {
     let (w, factored) = (&mut s.derivative, &mut s.factored);
     let h = m.opt.timestep;
     derivative::forces(m, d, w, Medium::Symmetric);

@@ -15,14 +15,14 @@ use crate::kinds::integrator;
 use crate::math::{combine, copy};
 use crate::model::stage::Stage;
 use crate::model::{Fields, Model, asleep};
-use crate::step::workspace::Scratch;
+use crate::step::workspace::StepScratch;
 use crate::{constraint, sensor};
 
 pub use position::{differentiate_pos, integrate_pos};
 
 /// Computes the next state with the integrator of the options.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(crate) fn integrate(m: &Model, d: &mut Fields, s: &mut Scratch) {
+pub(crate) fn integrate(m: &Model, d: &mut Fields, s: &mut StepScratch) {
     match m.opt.integrator {
         integrator::EULER => euler::euler(m, d, s),
         _ => by_another(m, d, s),
@@ -30,7 +30,7 @@ pub(crate) fn integrate(m: &Model, d: &mut Fields, s: &mut Scratch) {
 }
 
 #[cfg_attr(not(feature = "small"), inline(never))]
-fn by_another(m: &Model, d: &mut Fields, s: &mut Scratch) {
+fn by_another(m: &Model, d: &mut Fields, s: &mut StepScratch) {
     match m.opt.integrator {
         integrator::RK4 => runge_kutta::rk4(m, d, s),
         integrator::RKMK4 => explicit::explicit(m, d, s, &explicit::FOURTH),
@@ -44,19 +44,19 @@ fn by_another(m: &Model, d: &mut Fields, s: &mut Scratch) {
 /// Like [`integrate`], with a single evaluation of the forces. Methods that need more evaluations, such as Runge–Kutta, become
 /// Euler.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(crate) fn integrate_once(m: &Model, d: &mut Fields, s: &mut Scratch) {
+pub(crate) fn integrate_once(m: &Model, d: &mut Fields, s: &mut StepScratch) {
     match m.opt.integrator {
         integrator::IMPLICIT => implicit::implicit(m, d, s),
         integrator::IMPLICITFAST => implicit::implicitfast(m, d, s),
         // The acceleration already belongs to the end of the step.
-        integrator::DISCRETE => advance(m, d, s, Slopes::default()),
+        integrator::DISCRETE => advance(m, d, s, RateOverrides::default()),
         _ => euler::euler(m, d, s),
     }
 }
 
 /// Replacements for the rates that an integrator uses. `None` means the field of the data.
 #[derive(Default)]
-struct Slopes<'a> {
+struct RateOverrides<'a> {
     activation: Option<&'a mut Vec<f64>>,
     /// Activations at the end of the step, if they are known.
     reached: Option<&'a [f64]>,
@@ -67,9 +67,9 @@ struct Slopes<'a> {
 /// The last part of every integrator, in MuJoCo's order: histories, activations, sleep, velocities, positions with the
 /// new velocities, time, and the acceleration that warm-starts the next solver.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn advance(m: &Model, d: &mut Fields, s: &mut Scratch, slopes: Slopes) {
+fn advance(m: &Model, d: &mut Fields, s: &mut StepScratch, slopes: RateOverrides) {
     let h = m.opt.timestep;
-    let Slopes { activation, reached, acceleration, velocity } = slopes;
+    let RateOverrides { activation, reached, acceleration, velocity } = slopes;
     if m.nhistory > 0 {
         record(m, d, s);
     }
@@ -95,9 +95,9 @@ fn advance(m: &Model, d: &mut Fields, s: &mut Scratch, slopes: Slopes) {
 
 /// Like [`advance`], with the acceleration that an implicit method has stored in the scratch.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn advance_along(m: &Model, d: &mut Fields, s: &mut Scratch) {
+fn advance_along(m: &Model, d: &mut Fields, s: &mut StepScratch) {
     let acceleration = std::mem::take(&mut s.damping.qacc);
-    advance(m, d, s, Slopes { acceleration: Some(&acceleration), ..Slopes::default() });
+    advance(m, d, s, RateOverrides { acceleration: Some(&acceleration), ..RateOverrides::default() });
     s.damping.qacc = acceleration;
 }
 
@@ -107,7 +107,7 @@ fn advance_along(m: &Model, d: &mut Fields, s: &mut Scratch) {
 fn advance_awake(
     m: &Model,
     d: &mut Fields,
-    s: &mut Scratch,
+    s: &mut StepScratch,
     acceleration: Option<&[f64]>,
     velocity: Option<&[f64]>,
 ) {
@@ -136,7 +136,7 @@ fn advance_awake(
 
 /// Stores the current controls and sensor values for delayed actuators and sensors.
 #[cfg_attr(not(feature = "small"), inline(never))]
-fn record(m: &Model, d: &mut Fields, s: &mut Scratch) {
+fn record(m: &Model, d: &mut Fields, s: &mut StepScratch) {
     actuation::record(m, d);
     if d.plan.keeps(Stage::Sensors) {
         sensor::record(m, d, &mut s.sensor);

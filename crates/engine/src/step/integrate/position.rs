@@ -63,7 +63,7 @@ pub fn differentiate_pos(m: &Model, v: &mut [f64], h: f64, from: &[f64], to: &[f
                     }
                     (q, k) = (q + 3, k + 3);
                 }
-                let quat = |of: &[f64]| [of[q], of[q + 1], of[q + 2], of[q + 3]];
+                let quat = |list: &[f64]| [list[q], list[q + 1], list[q + 2], list[q + 3]];
                 let turn = quat_to_vel(quat_mul(quat_conj(quat(from)), quat(to)));
                 for i in 0..3 {
                     v[k + i] = turn[i] / h;

@@ -1,16 +1,16 @@
 //! The classical Runge–Kutta method of fourth order (Kutta 1901). The velocities of the stages are averaged and applied in
 //! one step on the manifold.
 
-use super::{Slopes, advance, integrate_pos};
+use super::{RateOverrides, advance, integrate_pos};
 use crate::model::{Fields, Model};
 use crate::step::forward;
-use crate::step::workspace::Scratch;
+use crate::step::workspace::StepScratch;
 
 /// Stage s starts from the initial state plus A[s] h times the slope of stage s - 1. B contains the weights of the slopes.
 const A: [f64; 3] = [0.5, 0.5, 1.0];
 const B: [f64; 4] = [1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0];
 
-pub(super) fn rk4(m: &Model, d: &mut Fields, s: &mut Scratch) {
+pub(super) fn rk4(m: &Model, d: &mut Fields, s: &mut StepScratch) {
     let (h, start) = (m.opt.timestep, d.time);
     let mut w = std::mem::take(&mut s.rk);
     w.qpos.copy_from_slice(&d.qpos);
@@ -41,11 +41,11 @@ pub(super) fn rk4(m: &Model, d: &mut Fields, s: &mut Scratch) {
         m,
         d,
         s,
-        Slopes {
+        RateOverrides {
             activation: Some(&mut w.dact),
             acceleration: Some(&w.dvel),
             velocity: Some(&w.dpos),
-            ..Slopes::default()
+            ..RateOverrides::default()
         },
     );
     s.rk = w;

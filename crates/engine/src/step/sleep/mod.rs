@@ -27,7 +27,7 @@ const AWAKE: i32 = -(1 + SLOW_STEPS);
 
 /// The memory of the stage between steps, and its scratch.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Scratch {
+pub(crate) struct SleepScratch {
     /// Coordinates at the last position stage.
     seen: Vec<f64>,
     /// Smooth forces and accelerations, saved to restore those of sleeping trees.
@@ -41,10 +41,10 @@ pub(crate) struct Scratch {
     fresh: bool,
 }
 
-impl Scratch {
-    pub(crate) fn new(m: &Model) -> Scratch {
+impl SleepScratch {
+    pub(crate) fn new(m: &Model) -> SleepScratch {
         let (q, v, a) = (vec![0.0; m.nq], vec![0.0; m.nv], vec![0.0; m.na]);
-        Scratch {
+        SleepScratch {
             seen: q.clone(),
             start: q,
             qfrc_smooth: v.clone(),
@@ -57,12 +57,12 @@ impl Scratch {
 }
 
 /// Whether there was no forward pass since the reset. Another plan may then change whether trees start asleep.
-pub(crate) fn is_fresh(w: &Scratch) -> bool {
+pub(crate) fn is_fresh(w: &SleepScratch) -> bool {
     w.fresh
 }
 
 /// Records that a forward pass was made.
-pub(crate) fn passed(w: &mut Scratch) {
+pub(crate) fn passed(w: &mut SleepScratch) {
     w.fresh = false;
 }
 
@@ -107,7 +107,7 @@ pub(crate) fn wake_all(m: &Model, d: &mut Fields) -> bool {
 
 /// Puts the trees to sleep that start asleep, without forces, accelerations and contacts. The accelerations of the other trees
 /// are zero too.
-pub(crate) fn start(m: &Model, d: &mut Fields, c: &mut constraint::Scratch) {
+pub(crate) fn start(m: &Model, d: &mut Fields, c: &mut constraint::ConstraintScratch) {
     for (asleep, &policy) in d.tree_asleep.iter_mut().zip(&m.tree_sleep_policy) {
         // These trees are ready to sleep. Their island determines whether they may sleep together with the trees that they touch.
         *asleep = if policy == policy::INIT { -1 } else { AWAKE };
@@ -121,7 +121,7 @@ pub(crate) fn start(m: &Model, d: &mut Fields, c: &mut constraint::Scratch) {
 }
 
 /// Starts again from the current state.
-pub(crate) fn begin(d: &Fields, w: &mut Scratch) {
+pub(crate) fn begin(d: &Fields, w: &mut SleepScratch) {
     w.seen.copy_from_slice(&d.qpos);
     w.fresh = true;
 }

@@ -1,6 +1,6 @@
 //! Falling asleep, and keeping the state and the results of sleeping trees.
 
-use super::{AWAKE, Scratch, coordinates};
+use super::{AWAKE, SleepScratch, coordinates};
 use crate::constraint::Islands;
 use crate::kinds::disable;
 use crate::model::asleep::{self, on, policy, some};
@@ -74,7 +74,7 @@ fn put_island_to_sleep(m: &Model, d: &mut Fields, trees: impl Iterator<Item = us
 }
 
 /// Saves the results of sleeping trees before the stages overwrite them.
-pub(crate) fn keep(m: &Model, d: &Fields, w: &mut Scratch) {
+pub(crate) fn keep(m: &Model, d: &Fields, w: &mut SleepScratch) {
     if some(m, d) && on(m, d) {
         w.qfrc_smooth.copy_from_slice(&d.qfrc_smooth);
         w.qacc_smooth.copy_from_slice(&d.qacc_smooth);
@@ -83,7 +83,7 @@ pub(crate) fn keep(m: &Model, d: &Fields, w: &mut Scratch) {
 }
 
 /// Restores the saved results of sleeping trees before constraints are solved.
-pub(crate) fn put_back(m: &Model, d: &mut Fields, w: &Scratch) {
+pub(crate) fn put_back(m: &Model, d: &mut Fields, w: &SleepScratch) {
     if !some(m, d) || !on(m, d) {
         return;
     }

@@ -1,12 +1,12 @@
 //! Waking sleeping trees.
 
-use super::{AWAKE, Scratch, coordinates, rest, update};
+use super::{AWAKE, SleepScratch, coordinates, rest, update};
 use crate::kinds::eqtype;
 use crate::model::asleep::{on, some};
 use crate::model::{Fields, Model};
 
 /// Wakes the trees that the user changed since the last position stage: their positions, applied forces or velocities.
-pub(crate) fn wake(m: &Model, d: &mut Fields, w: &mut Scratch) {
+pub(crate) fn wake(m: &Model, d: &mut Fields, w: &mut SleepScratch) {
     if some(m, d) {
         let allowed = on(m, d);
         for tree in 0..m.ntree {
@@ -104,7 +104,7 @@ fn trees_of_equality(m: &Model, e: usize) -> Option<[usize; 2]> {
 }
 
 /// Whether the coordinates of a tree differ from those of the last position stage.
-fn was_moved(m: &Model, d: &Fields, w: &Scratch, tree: usize) -> bool {
+fn was_moved(m: &Model, d: &Fields, w: &SleepScratch, tree: usize) -> bool {
     let of_tree = coordinates(m, tree);
     d.qpos[of_tree.clone()] != w.seen[of_tree]
 }

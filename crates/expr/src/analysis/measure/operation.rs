@@ -117,12 +117,12 @@ impl MeasureWalk<'_> {
             | Op::PutAll(into, a)
             | Op::StoreItem(into, _, a, _)
             | Op::StoreMember(into, _, a, _) => self.join(value(into), self.value(a)),
-            Op::Member(d, of, name) => {
+            Op::Member(d, list, name) => {
                 let length = self.around.form.texts.get(name as usize).is_some_and(|t| &**t == "length");
-                self.set(value(d), if length { Measure::NUMBER } else { self.measure_of_elements(of) });
+                self.set(value(d), if length { Measure::NUMBER } else { self.measure_of_elements(list) });
             }
-            Op::CellGet(d, of) | Op::Element(d, of, _) | Op::ElementAt(d, of, _) => {
-                self.set(value(d), self.measure_of_elements(of));
+            Op::CellGet(d, list) | Op::Element(d, list, _) | Op::ElementAt(d, list, _) => {
+                self.set(value(d), self.measure_of_elements(list));
             }
             Op::Method(d, name, args) => {
                 let args: Vec<Measure> =
@@ -203,10 +203,10 @@ impl MeasureWalk<'_> {
     /// Analyses a call of a function of the program. Afterwards, the measures of the lists and shared variables that it may
     /// have changed are updated. As in JavaScript, a missing argument is `undefined` and an extra argument is ignored.
     fn invoke(&mut self, unit: UnitId, args: Vec<Operand>, used: Vec<Operand>) {
-        let wanted = self.around.form.units.get(unit as usize).map_or(0, |u| u.params.len());
+        let expected = self.around.form.units.get(unit as usize).map_or(0, |u| u.params.len());
         let mut given: Vec<Option<Operand>> = args.into_iter().map(Some).collect();
-        if !used.is_empty() || given.len() < wanted {
-            given.resize(wanted, None);
+        if !used.is_empty() || given.len() < expected {
+            given.resize(expected, None);
         }
         given.extend(used.into_iter().map(Some));
         let measures: Vec<Measure> =
@@ -221,8 +221,12 @@ impl MeasureWalk<'_> {
     }
 
     /// The measure of the elements of a list or a record, or of the value of a shared variable.
-    fn measure_of_elements(&self, of: Val) -> Measure {
-        if self.wild && self.unit.constant_value(of).is_none() { Measure::Unknown } else { self.value(of) }
+    fn measure_of_elements(&self, list: Val) -> Measure {
+        if self.wild && self.unit.constant_value(list).is_none() {
+            Measure::Unknown
+        } else {
+            self.value(list)
+        }
     }
 
     fn receiver(&self, op: &Op) -> Option<Val> {
@@ -250,11 +254,11 @@ impl MeasureWalk<'_> {
     /// The measure that every member of a table has.
     fn measure_of_members(&self, table: u32) -> Measure {
         let picks = self.around.form.picks.get(table as usize);
-        let of = picks.iter().flat_map(|picks| &picks.of).map(|(_, value)| match value {
+        let measures = picks.iter().flat_map(|picks| &picks.members).map(|(_, value)| match value {
             Value::View(view) => self.access(whole(*view)),
             _ => Measure::Unknown,
         });
-        of.reduce(Measure::or).unwrap_or_default()
+        measures.reduce(Measure::or).unwrap_or_default()
     }
 
     fn binary(&mut self, op: BinaryOp, a: Num, b: Num, span: &Span) -> Measure {

@@ -26,8 +26,8 @@ pub(in crate::bind) fn lint(
         SourceTree::Expression(expr) | SourceTree::Target(expr) => pass.expr(expr),
         SourceTree::Statements(statements) => pass.block(statements),
     }
-    for (span, want, shape) in &typed.wants {
-        match want {
+    for (span, expectation, shape) in &typed.expectations {
+        match expectation {
             Expectation::Number(by) => pass.text_for_number(*span, by, shape),
             Expectation::Angle(by) => pass.angle(*span, by, shape),
             Expectation::Element(element) => {

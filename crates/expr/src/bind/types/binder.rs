@@ -379,9 +379,9 @@ impl<'a> Binder<'a> {
     }
 
     /// Records for the lints what is expected of a value.
-    pub(super) fn record_expectation(&mut self, ir: &Ir, span: Span, want: Expectation) {
+    pub(super) fn record_expectation(&mut self, ir: &Ir, span: Span, expectation: Expectation) {
         if self.site.is_none() {
-            self.typed.wants.push((span, want, ExpressionShape::of_ir(ir)));
+            self.typed.expectations.push((span, expectation, ExpressionShape::of_ir(ir)));
         }
     }
 }

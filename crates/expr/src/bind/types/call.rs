@@ -289,12 +289,12 @@ impl<'a> Binder<'a> {
     fn wrong_count(&self, info: &FunctionInfo, args: &[Expr], callee: Option<Span>, span: Span) -> Finding {
         let signature = self.signature(info);
         let n = info.params.len();
-        let wanted = if info.optional > 0 {
+        let expected = if info.optional > 0 {
             format!("{} to {}", n.saturating_sub(info.optional), count(n, "argument"))
         } else {
             count(n, "argument")
         };
-        let message = format!("`{}` takes {wanted}, not {}", info.name, args.len());
+        let message = format!("`{}` takes {expected}, not {}", info.name, args.len());
         let report =
             Finding::error(rules::ARGUMENT_COUNT, span, message).why(format!("it does this: {}", info.doc));
         let only_objects =
@@ -322,7 +322,7 @@ impl<'a> Binder<'a> {
     ) -> Attempt<Option<Ir>> {
         let span = arg.span;
         match param {
-            Param::Object(wanted) => self.object_argument(info, i, wanted, arg).map(|()| None),
+            Param::Object(expected) => self.object_argument(info, i, expected, arg).map(|()| None),
             Param::Name(collection) => self.name_argument(collection, arg).map(Some),
             Param::Number | Param::Angle => {
                 let ir = self.operand(arg)?;
@@ -355,13 +355,13 @@ impl<'a> Binder<'a> {
         &mut self,
         info: &FunctionInfo,
         i: usize,
-        wanted: ObjectId,
+        expected: ObjectId,
         arg: &'a Expr,
     ) -> Attempt<()> {
-        if matches!(self.entity(arg)?, Entity::Object(id) if id == wanted) {
+        if matches!(self.entity(arg)?, Entity::Object(id) if id == expected) {
             return Ok(());
         }
-        let object = self.schema.describe(wanted);
+        let object = self.schema.describe(expected);
         let message = format!("argument {} of `{}` must be {}", i + 1, info.name, quoted(&object));
         self.refuse(
             Finding::error(rules::ARGUMENT_TYPE, arg.span, message)
@@ -381,9 +381,9 @@ impl<'a> Binder<'a> {
                 let id = |n: &String| {
                     Some((n.as_str().into(), Value::Number(f64::from(self.schema.lookup(collection, n)?.0))))
                 };
-                let mut of: Vec<_> = names.iter().filter_map(id).collect();
-                order::sort_by(&mut of, |a: &(std::sync::Arc<str>, Value), b| a.0.cmp(&b.0));
-                let picks = MemberTable { noun, of, scalar: false };
+                let mut members: Vec<_> = names.iter().filter_map(id).collect();
+                order::sort_by(&mut members, |a: &(std::sync::Arc<str>, Value), b| a.0.cmp(&b.0));
+                let picks = MemberTable { noun, members, scalar: false };
                 Ok(Ir::new(IrKind::Pick(picks.into(), Box::new(name)), Type::Number, arg.span))
             }
         }
@@ -407,9 +407,9 @@ impl<'a> Binder<'a> {
         })
     }
 
-    fn wrong_type<T>(&mut self, info: &FunctionInfo, i: usize, ir: &Ir, wanted: &str) -> Attempt<T> {
+    fn wrong_type<T>(&mut self, info: &FunctionInfo, i: usize, ir: &Ir, expected: &str) -> Attempt<T> {
         let message =
-            format!("argument {} of `{}` must be {wanted}, not {}", i + 1, info.name, ir.ty.describe());
+            format!("argument {} of `{}` must be {expected}, not {}", i + 1, info.name, ir.ty.describe());
         let report = Finding::error(rules::ARGUMENT_TYPE, ir.span, message).why(info.doc.clone());
         let constant = ir.as_constant().map(|v| (v.type_of(), v.to_number()));
         self.refuse(match constant {

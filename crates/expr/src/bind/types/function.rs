@@ -185,7 +185,7 @@ impl<'a> Binder<'a> {
             let items = self.items(args)?;
             return Ok(self.call_value(callee, items, span));
         }
-        let wanted = self.functions.get(at).map_or(0, |k| k.function.params.len());
+        let expected = self.functions.get(at).map_or(0, |k| k.function.params.len());
         let needed = self
             .functions
             .get(at)
@@ -195,11 +195,11 @@ impl<'a> Binder<'a> {
         let mut failed = false;
         for (i, arg) in args.iter().enumerate() {
             // An extra argument is skipped if its evaluation can have no effect.
-            if i >= wanted && matches!(arg.kind, ExprKind::Name(_) | ExprKind::Number(_)) {
+            if i >= expected && matches!(arg.kind, ExprKind::Name(_) | ExprKind::Number(_)) {
                 continue;
             }
             match self.value(arg) {
-                Ok(ir) if i < wanted => values.push(ir),
+                Ok(ir) if i < expected => values.push(ir),
                 Ok(ir) => extra.push(IrStatement::Effect(ir)),
                 Err(Reported) => failed = true,
             }

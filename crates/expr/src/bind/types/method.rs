@@ -144,7 +144,7 @@ impl<'a> Binder<'a> {
             return Ok(());
         }
         self.check_arguments(args);
-        let wanted = match (least, most) {
+        let expected = match (least, most) {
             _ if least == most => super::call::count(least, "argument"),
             (_, usize::MAX) => format!("at least {}", super::call::count(least, "argument")),
             _ => format!("{least} to {}", super::call::count(most, "argument")),
@@ -155,7 +155,7 @@ impl<'a> Binder<'a> {
             Finding::error(
                 rules::ARGUMENT_COUNT,
                 span,
-                format!("`{point}{}` takes {wanted}, not {}", row.name, args.len()),
+                format!("`{point}{}` takes {expected}, not {}", row.name, args.len()),
             )
             .why(format!("what it gives: {}", row.doc))
             .help(format!("an example: `{example}` is `{value}`")),

@@ -157,7 +157,7 @@ impl<'a> Binder<'a> {
     ) -> Attempt<Entity> {
         let noun = self.schema.noun(id).to_owned();
         let names = self.schema.names(id);
-        let mut of: Vec<(Arc<str>, Value)> = Vec::new();
+        let mut members: Vec<(Arc<str>, Value)> = Vec::new();
         let mut scalar = false;
         let mut fields = Vec::new();
         for object_name in &names {
@@ -165,14 +165,14 @@ impl<'a> Binder<'a> {
             match entry {
                 Some(Entry::Field(field)) => {
                     scalar |= field.is_scalar();
-                    of.push((object_name.as_str().into(), Value::View(view_of(&field))));
+                    members.push((object_name.as_str().into(), Value::View(view_of(&field))));
                     fields.push(field);
                 }
-                Some(Entry::Constant(value)) => of.push((object_name.as_str().into(), value)),
+                Some(Entry::Constant(value)) => members.push((object_name.as_str().into(), value)),
                 _ => {}
             }
         }
-        if of.is_empty() {
+        if members.is_empty() {
             // All objects of a collection have the same members, so the first one is used for the message.
             let object = names.first().and_then(|n| self.schema.lookup(id, n));
             let report = match object {
@@ -190,14 +190,14 @@ impl<'a> Binder<'a> {
                 self.show(field);
             }
         }
-        order::sort_by(&mut of, |a, b| a.0.cmp(&b.0));
-        of.dedup_by(|a, b| a.0 == b.0);
-        let ty = match of.first() {
+        order::sort_by(&mut members, |a, b| a.0.cmp(&b.0));
+        members.dedup_by(|a, b| a.0 == b.0);
+        let ty = match members.first() {
             Some((_, Value::View(_))) if scalar => Type::Number,
             Some((_, value)) => value.type_of(),
             None => Type::Any,
         };
-        let picks = MemberTable { noun, of, scalar };
+        let picks = MemberTable { noun, members, scalar };
         Ok(Entity::Value(Ir::new(IrKind::Pick(picks.into(), Box::new(chosen)), ty, span)))
     }
 

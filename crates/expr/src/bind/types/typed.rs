@@ -17,7 +17,7 @@ pub(in crate::bind) struct TypedText {
     pub(super) shapes: Vec<(Span, ExpressionShape)>,
     pub(super) idle: BTreeSet<Span>,
     /// Values of which something is expected.
-    pub(in crate::bind) wants: Vec<(Span, Expectation, ExpressionShape)>,
+    pub(in crate::bind) expectations: Vec<(Span, Expectation, ExpressionShape)>,
 }
 
 /// The known properties of a value.

@@ -25,31 +25,31 @@ pub(crate) struct Coupled {
 
 impl Coupled {
     /// Whether a modification of a model's text omits a coupled parameter; `before` is the model without it.
-    pub(crate) fn leaves_coupled(&self, before: &Model, now: &Model) -> bool {
-        same_objects(before, now) && has_uncoupled_change(self.changes, before, now)
+    pub(crate) fn leaves_coupled(&self, before: &Model, current: &Model) -> bool {
+        same_objects(before, current) && has_uncoupled_change(self.changes, before, current)
     }
 
     /// Corrects a model with modifications of its text; `before` is the model without them.
-    pub(crate) fn changed(&self, before: &Model, now: &mut Model) {
+    pub(crate) fn changed(&self, before: &Model, current: &mut Model) {
         let mut world = World {
-            model: now.clone(),
-            data: Data::planned(now, Plan::new(now, &AccessSet::ANY)),
+            model: current.clone(),
+            data: Data::planned(current, Plan::new(current, &AccessSet::ANY)),
             key: None,
             functions: Functions::new(),
             displayed: Vec::new(),
             numbers: Vec::new(),
             playback: None,
         };
-        if same_objects(before, now)
+        if same_objects(before, current)
             && correct_partners(self.changes, before, &mut world).is_ok_and(|done| done.is_some())
         {
-            *now = world.model;
+            *current = world.model;
         }
     }
 
     /// The pairs that are corrected after a program; `None` where there are none.
     pub(crate) fn pairs_after(&self, program: &Program, text: &Text) -> Option<PairSet> {
-        let listed = self.programs.iter().find(|(of, _)| of == text);
+        let listed = self.programs.iter().find(|(program_text, _)| program_text == text);
         let pairs = listed.map_or(self.others, |(_, pairs)| *pairs);
         let written = pairs.pairs().any(|(_, pair)| writes_field(program, pair.parameter));
         (written || listed.is_some() && self.refresh && writes_inertial(program)).then_some(pairs)
@@ -84,8 +84,8 @@ fn same_objects(a: &Model, b: &Model) -> bool {
 
 /// Whether a coupled parameter differs from the value that follows from its parameter. `before` is the model before the
 /// change.
-pub(crate) fn has_uncoupled_change(pairs: PairSet, before: &Model, now: &Model) -> bool {
-    pairs.pairs().any(|(_, pair)| !(pair.follow)(before, now).is_empty())
+pub(crate) fn has_uncoupled_change(pairs: PairSet, before: &Model, current: &Model) -> bool {
+    pairs.pairs().any(|(_, pair)| !(pair.follow)(before, current).is_empty())
 }
 
 /// Corrects coupled parameters, and the constants that depend on them; `None` where nothing was wrong.

@@ -23,11 +23,11 @@ fn factor(both: BeforeAndAfter<'_>, i: usize) -> Option<f64> {
 }
 
 /// The inertia is proportional to the mass.
-pub(super) fn inertia_of_mass(before: &Model, now: &Model) -> Changes {
+pub(super) fn inertia_of_mass(before: &Model, current: &Model) -> Changes {
     let (mass, inertia) =
-        ((&*before.body_mass, &*now.body_mass), (&*before.body_inertia, &*now.body_inertia));
+        ((&*before.body_mass, &*current.body_mass), (&*before.body_inertia, &*current.body_inertia));
     let mut changes = Vec::new();
-    for body in (1..now.nbody).filter(|b| !same(mass, *b)) {
+    for body in (1..current.nbody).filter(|b| !same(mass, *b)) {
         let Some(f) = factor(mass, body) else { continue };
         let unwritten = (3 * body..3 * body + 3).filter(|i| same(inertia, *i));
         changes.extend(unwritten.map(|i| (i, PartnerChange::Times(f))));
@@ -53,8 +53,8 @@ fn reach(m: &Model, body: usize) -> Option<f64> {
 
 /// The principal moments of a body before and after a program, and the largest factor between them, if the program changed
 /// any.
-fn moments(before: &Model, now: &Model, body: usize) -> Option<([f64; 3], [f64; 3], f64)> {
-    let [a, b] = [before, now].map(|m| rows::<3>(&m.body_inertia).get(body).copied());
+fn moments(before: &Model, current: &Model, body: usize) -> Option<([f64; 3], [f64; 3], f64)> {
+    let [a, b] = [before, current].map(|m| rows::<3>(&m.body_inertia).get(body).copied());
     let (a, b) = (a?, b?);
     let factors =
         a.iter().zip(&b).filter(|(x, y)| x.to_bits() != y.to_bits() && **x > 0.0).map(|(x, y)| y / x);
@@ -63,31 +63,31 @@ fn moments(before: &Model, now: &Model, body: usize) -> Option<([f64; 3], [f64; 
 }
 
 /// No mass is farther from the axis than the reach r of the body: a moment above m r² needs a larger mass.
-pub(super) fn mass_of_inertia(before: &Model, now: &Model) -> Changes {
-    let mass = (&*before.body_mass, &*now.body_mass);
+pub(super) fn mass_of_inertia(before: &Model, current: &Model) -> Changes {
+    let mass = (&*before.body_mass, &*current.body_mass);
     let most = |x: [f64; 3]| x.into_iter().fold(0.0, f64::max);
     let too_large = |m: &Model, body: usize, moments: [f64; 3]| {
         let bound = m.body_mass.get(body).zip(reach(m, body)).map(|(mass, r)| mass * r * r);
         bound.is_some_and(|bound| most(moments) > bound * (1.0 + ROUNDING))
     };
     let one = |body: usize| {
-        let (a, b, factor) = moments(before, now, body)?;
-        let wrong = same(mass, body) && !too_large(before, body, a) && too_large(now, body, b);
+        let (a, b, factor) = moments(before, current, body)?;
+        let wrong = same(mass, body) && !too_large(before, body, a) && too_large(current, body, b);
         wrong.then_some((body, PartnerChange::Times(factor)))
     };
-    (1..now.nbody).filter_map(one).collect()
+    (1..current.nbody).filter_map(one).collect()
 }
 
 /// No principal moment exceeds the sum of the other two.
-pub(super) fn other_moments(before: &Model, now: &Model) -> Changes {
-    let inertia = (&*before.body_inertia, &*now.body_inertia);
+pub(super) fn other_moments(before: &Model, current: &Model) -> Changes {
+    let inertia = (&*before.body_inertia, &*current.body_inertia);
     let possible = |[a, b, c]: [f64; 3]| {
         let largest = a.max(b).max(c);
         2.0 * largest <= (a + b + c) * (1.0 + ROUNDING)
     };
     let mut changes = Vec::new();
-    for body in 1..now.nbody {
-        let Some((a, b, factor)) = moments(before, now, body) else { continue };
+    for body in 1..current.nbody {
+        let Some((a, b, factor)) = moments(before, current, body) else { continue };
         if possible(a) && !possible(b) {
             let unwritten = (3 * body..3 * body + 3).filter(|i| same(inertia, *i));
             changes.extend(unwritten.map(|i| (i, PartnerChange::Times(factor))));
@@ -99,31 +99,31 @@ pub(super) fn other_moments(before: &Model, now: &Model) -> Changes {
 /// The geoms whose size or position was changed.
 fn changed<'m>(
     before: &'m Model,
-    now: &'m Model,
-    of: fn(&Model) -> &[f64],
+    current: &'m Model,
+    numbers: fn(&Model) -> &[f64],
 ) -> impl Iterator<Item = usize> + 'm {
-    let [a, b] = [before, now].map(of);
-    (0..now.ngeom).filter(move |g| (3 * g..3 * g + 3).any(|i| !same((a, b), i)))
+    let [a, b] = [before, current].map(numbers);
+    (0..current.ngeom).filter(move |g| (3 * g..3 * g + 3).any(|i| !same((a, b), i)))
 }
 
 /// The collision test uses the bounding radius.
-pub(super) fn bound_of_size(before: &Model, now: &Model) -> Changes {
-    let bounds = (&*before.geom_rbound, &*now.geom_rbound);
+pub(super) fn bound_of_size(before: &Model, current: &Model) -> Changes {
+    let bounds = (&*before.geom_rbound, &*current.geom_rbound);
     let one = |g: usize| {
-        let radius = shape::shape_of_geom(now, g)?.radius;
-        (same(bounds, g) && now.geom_rbound.get(g) != Some(&radius))
+        let radius = shape::shape_of_geom(current, g)?.radius;
+        (same(bounds, g) && current.geom_rbound.get(g) != Some(&radius))
             .then_some((g, PartnerChange::Becomes(radius)))
     };
-    changed(before, now, |m| &m.geom_size).filter_map(one).collect()
+    changed(before, current, |m| &m.geom_size).filter_map(one).collect()
 }
 
 /// If the mass of a body is that of one geom, its inertia is that of the shape of the geom.
-pub(super) fn inertia_of_size(before: &Model, now: &Model) -> Changes {
-    let inertia = (&*before.body_inertia, &*now.body_inertia);
+pub(super) fn inertia_of_size(before: &Model, current: &Model) -> Changes {
+    let inertia = (&*before.body_inertia, &*current.body_inertia);
     let mut changes = Vec::new();
-    for g in changed(before, now, |m| &m.geom_size) {
+    for g in changed(before, current, |m| &m.geom_size) {
         let Some(body) = shape::body_of_geom_mass(before, g) else { continue };
-        let [old, new] = [before, now].map(|m| shape::moments(m, g, body));
+        let [old, new] = [before, current].map(|m| shape::moments(m, g, body));
         let (Some(old), Some(new)) = (old, new) else { continue };
         let elements = 3 * body..3 * body + 3;
         for ((i, a), b) in elements.zip(old).zip(new).filter(|((i, _), _)| same(inertia, *i)) {
@@ -134,10 +134,11 @@ pub(super) fn inertia_of_size(before: &Model, now: &Model) -> Changes {
 }
 
 /// If the mass of a body is that of one geom, its centre of mass is the position of the geom.
-pub(super) fn centre_of_place(before: &Model, now: &Model) -> Changes {
-    let (place, centre) = ((&*before.geom_pos, &*now.geom_pos), (&*before.body_ipos, &*now.body_ipos));
+pub(super) fn centre_of_place(before: &Model, current: &Model) -> Changes {
+    let (place, centre) =
+        ((&*before.geom_pos, &*current.geom_pos), (&*before.body_ipos, &*current.body_ipos));
     let mut changes = Vec::new();
-    for g in changed(before, now, |m| &m.geom_pos) {
+    for g in changed(before, current, |m| &m.geom_pos) {
         let Some(body) = shape::body_of_geom_mass(before, g) else { continue };
         for axis in 0..3 {
             let Some((a, b)) = at(place, 3 * g + axis).filter(|(a, b)| a != b) else { continue };
@@ -164,26 +165,29 @@ pub(super) fn servo(m: &Model, actuator: usize) -> Option<usize> {
 }
 
 /// A servo applies gain * (target - length), so its bias is minus the gain.
-pub(super) fn bias_of_gain(before: &Model, now: &Model) -> Changes {
-    let [gain, bias] = both_of_actuators(before, now);
+pub(super) fn bias_of_gain(before: &Model, current: &Model) -> Changes {
+    let [gain, bias] = both_of_actuators(before, current);
     let one = |actuator: usize| {
         let (first, of_bias) = (PARAMETERS * actuator, servo(before, actuator)?);
         let wrong = !same(gain, first) && same(bias, of_bias);
         wrong.then_some((of_bias, PartnerChange::Becomes(-*gain.1.get(first)?)))
     };
-    (0..now.nactuator).filter_map(one).collect()
+    (0..current.nactuator).filter_map(one).collect()
 }
 
-pub(super) fn gain_of_bias(before: &Model, now: &Model) -> Changes {
-    let [gain, bias] = both_of_actuators(before, now);
+pub(super) fn gain_of_bias(before: &Model, current: &Model) -> Changes {
+    let [gain, bias] = both_of_actuators(before, current);
     let one = |actuator: usize| {
         let (first, of_bias) = (PARAMETERS * actuator, servo(before, actuator)?);
         let wrong = same(gain, first) && !same(bias, of_bias);
         wrong.then_some((first, PartnerChange::Becomes(-*bias.1.get(of_bias)?)))
     };
-    (0..now.nactuator).filter_map(one).collect()
+    (0..current.nactuator).filter_map(one).collect()
 }
 
-fn both_of_actuators<'m>(before: &'m Model, now: &'m Model) -> [BeforeAndAfter<'m>; 2] {
-    [(&*before.actuator_gainprm, &*now.actuator_gainprm), (&*before.actuator_biasprm, &*now.actuator_biasprm)]
+fn both_of_actuators<'m>(before: &'m Model, current: &'m Model) -> [BeforeAndAfter<'m>; 2] {
+    [
+        (&*before.actuator_gainprm, &*current.actuator_gainprm),
+        (&*before.actuator_biasprm, &*current.actuator_biasprm),
+    ]
 }

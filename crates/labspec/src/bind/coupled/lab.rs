@@ -3,8 +3,8 @@
 
 use super::correction::Coupled;
 use super::pair_set::{PairSet, writes_field};
-use super::statements::{Repair, Statements};
-use super::table::{PAIRS, Pair};
+use super::statements::{Repair, StatementWriter};
+use super::table::{CoupledPair, PAIRS};
 use crate::bind::programs::{Bound, ControlProgram, Programs, include};
 use labspec_bind::{ModelNames, Scope};
 use labspec_core::Model;
@@ -32,7 +32,7 @@ const MAX_NAMED_ELEMENTS: usize = 4;
 impl Repair {
     /// The statements for these pairs; `None` where a pair has none.
     pub(crate) fn of_program(bound: &Bound, pairs: PairSet, model: &Model) -> Option<Repair> {
-        let mut made = Statements { model, text: &bound.text.value, repair: Repair::default() };
+        let mut made = StatementWriter { model, text: &bound.text.value, repair: Repair::default() };
         for (_, pair) in pairs.pairs() {
             let written = written_elements(bound, pair.parameter)
                 .filter(|w| w.len() <= MAX_NAMED_ELEMENTS)
@@ -51,16 +51,16 @@ pub(crate) fn intentionally_separate(programs: &Programs, bound: &Bound, pairs: 
         ControlProgram::Press(_) => None,
     });
     let others: Vec<&Bound> = controls.filter(|other| other.text != bound.text).collect();
-    let apart = |pair: &Pair| {
-        let wanted: Vec<_> =
+    let has_separate_writer = |pair: &CoupledPair| {
+        let partners: Vec<_> =
             written_elements(bound, pair.parameter).into_iter().flatten().flat_map(pair.partners).collect();
         let has = |other: &&Bound| {
             let theirs = written_elements(other, pair.partner).unwrap_or_default();
-            !writes_field(&other.program, pair.parameter) && wanted.iter().any(|i| theirs.contains(i))
+            !writes_field(&other.program, pair.parameter) && partners.iter().any(|i| theirs.contains(i))
         };
         others.iter().any(has)
     };
-    pairs.pairs().filter(|(_, pair)| apart(pair)).map(|(one, _)| one).collect()
+    pairs.pairs().filter(|(_, pair)| has_separate_writer(pair)).map(|(one, _)| one).collect()
 }
 
 /// Maximum number of elements of a field that are listed individually.

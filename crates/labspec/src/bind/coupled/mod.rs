@@ -30,4 +30,4 @@ pub(crate) use correction::{Coupled, agree, has_uncoupled_change};
 pub(crate) use lab::intentionally_separate;
 pub(crate) use pair_set::PairSet;
 pub(crate) use statements::Repair;
-pub(crate) use table::Pair;
+pub(crate) use table::CoupledPair;

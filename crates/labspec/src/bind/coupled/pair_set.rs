@@ -1,6 +1,6 @@
 //! Sets of pairs, and the pairs that a program writes.
 
-use super::table::{PAIRS, Pair};
+use super::table::{CoupledPair, PAIRS};
 use labspec_core::reflect::FieldId;
 use labspec_expr::Program;
 
@@ -27,7 +27,7 @@ impl PairSet {
     }
 
     /// The pairs of the set, each with the set that contains only it.
-    pub(crate) fn pairs(self) -> impl Iterator<Item = (PairSet, &'static Pair)> {
+    pub(crate) fn pairs(self) -> impl Iterator<Item = (PairSet, &'static CoupledPair)> {
         let all = PAIRS.iter().enumerate().map(|(i, pair)| (PairSet(1 << i), pair));
         all.filter(move |(one, _)| self.0 & one.0 != 0)
     }

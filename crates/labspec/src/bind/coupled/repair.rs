@@ -2,7 +2,7 @@
 
 use super::follow::servo;
 use super::shape;
-use super::statements::Statements;
+use super::statements::StatementWriter;
 use labspec_core::geom;
 
 /// A loop over the three elements of the inertia of a body.
@@ -10,7 +10,7 @@ fn over_moments(body: usize, statement: &str) -> String {
     format!("for (let i = {}; i < {}; i++) model.body_inertia[i] {statement}", 3 * body, 3 * body + 3)
 }
 
-pub(super) fn inertia_of_mass(s: &mut Statements<'_>, bodies: &[usize]) -> Option<()> {
+pub(super) fn inertia_of_mass(s: &mut StatementWriter<'_>, bodies: &[usize]) -> Option<()> {
     s.repair.constants = true;
     if bodies.is_empty() {
         let masses = s.keep("m", "model.body_mass.slice()");
@@ -37,7 +37,7 @@ fn sizes(g: usize) -> [String; 3] {
     [0, 1, 2].map(|k| format!("model.geom_size[{}]", 3 * g + k))
 }
 
-pub(super) fn bound_of_size(s: &mut Statements<'_>, written: &[usize]) -> Option<()> {
+pub(super) fn bound_of_size(s: &mut StatementWriter<'_>, written: &[usize]) -> Option<()> {
     for g in geoms(written)? {
         let [a, b, c] = sizes(g);
         let radius = match *s.model.geom_type.get(g)? {
@@ -53,7 +53,7 @@ pub(super) fn bound_of_size(s: &mut Statements<'_>, written: &[usize]) -> Option
     Some(())
 }
 
-pub(super) fn inertia_of_size(s: &mut Statements<'_>, written: &[usize]) -> Option<()> {
+pub(super) fn inertia_of_size(s: &mut StatementWriter<'_>, written: &[usize]) -> Option<()> {
     s.repair.constants = true;
     for g in geoms(written)? {
         let body = shape::body_of_geom_mass(s.model, g)?;
@@ -85,7 +85,7 @@ pub(super) fn inertia_of_size(s: &mut Statements<'_>, written: &[usize]) -> Opti
     Some(())
 }
 
-pub(super) fn centre_of_place(s: &mut Statements<'_>, written: &[usize]) -> Option<()> {
+pub(super) fn centre_of_place(s: &mut StatementWriter<'_>, written: &[usize]) -> Option<()> {
     s.repair.constants = true;
     if written.is_empty() {
         return None;
@@ -98,7 +98,7 @@ pub(super) fn centre_of_place(s: &mut Statements<'_>, written: &[usize]) -> Opti
     Some(())
 }
 
-pub(super) fn bias_of_gain(s: &mut Statements<'_>, written: &[usize]) -> Option<()> {
+pub(super) fn bias_of_gain(s: &mut StatementWriter<'_>, written: &[usize]) -> Option<()> {
     let gains = written.iter().filter(|i| *i % 10 == 0);
     for gain in gains {
         let bias = servo(s.model, gain / 10)?;
@@ -107,7 +107,7 @@ pub(super) fn bias_of_gain(s: &mut Statements<'_>, written: &[usize]) -> Option<
     (!s.repair.after.is_empty()).then_some(())
 }
 
-pub(super) fn gain_of_bias(s: &mut Statements<'_>, written: &[usize]) -> Option<()> {
+pub(super) fn gain_of_bias(s: &mut StatementWriter<'_>, written: &[usize]) -> Option<()> {
     for bias in written {
         let gain = bias / 10 * 10;
         if servo(s.model, gain / 10) == Some(*bias) {

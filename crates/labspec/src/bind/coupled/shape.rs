@@ -9,7 +9,7 @@ const MOMENT_TOLERANCE: f64 = 1e-6;
 
 /// The properties of a shape.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Shape {
+pub(super) struct ShapeProperties {
     /// Radius of the bounding sphere, m.
     pub(super) radius: f64,
     /// Inertia tensor per kilogram in the frame of the geom, m².
@@ -26,7 +26,7 @@ const KINDS: [(i32, &str, usize); 5] = [
 ];
 
 /// The shape of a geom; `None` for planes, height fields and meshes, and for invalid sizes.
-pub(super) fn shape_of_geom(m: &Model, g: usize) -> Option<Shape> {
+pub(super) fn shape_of_geom(m: &Model, g: usize) -> Option<ShapeProperties> {
     let kind = m.geom_type.get(g)?;
     let (_, word, sizes) = KINDS.iter().find(|(k, ..)| k == kind)?;
     let size = rows::<3>(&m.geom_size).get(g)?;
@@ -38,7 +38,7 @@ pub(super) fn shape_of_geom(m: &Model, g: usize) -> Option<Shape> {
     let alone = Model::from_xml(&xml).ok()?;
     let tensor =
         tensor(*rows::<3>(&alone.body_inertia).get(1)?, &quat_to_mat(*rows::<4>(&alone.body_iquat).get(1)?));
-    Some(Shape { radius: *alone.geom_rbound.first()?, tensor })
+    Some(ShapeProperties { radius: *alone.geom_rbound.first()?, tensor })
 }
 
 /// R diag Rᵀ.

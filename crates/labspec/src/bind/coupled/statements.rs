@@ -14,28 +14,28 @@ pub(crate) struct Repair {
 }
 
 /// Statements while they are written.
-pub(super) struct Statements<'a> {
+pub(super) struct StatementWriter<'a> {
     pub(super) model: &'a Model,
     pub(super) text: &'a str,
     pub(super) repair: Repair,
 }
 
-impl Statements<'_> {
+impl StatementWriter<'_> {
     /// A name that the program does not use.
-    fn name(&self, wanted: &str) -> String {
+    fn name(&self, preferred: &str) -> String {
         let part = |c: char| c.is_alphanumeric() || c == '_' || c == '$';
         let is_used = |name: &str| {
             self.text.split(|c| !part(c)).any(|word| word == name)
                 || self.repair.before.iter().any(|s| s.starts_with(&format!("const {name} ")))
         };
-        let numbered = (2..100).map(|n| format!("{wanted}{n}"));
-        let mut names = std::iter::once(wanted.to_string()).chain(numbered);
-        names.find(|name| !is_used(name)).unwrap_or_else(|| format!("{wanted}_as_it_was"))
+        let numbered = (2..100).map(|n| format!("{preferred}{n}"));
+        let mut names = std::iter::once(preferred.to_string()).chain(numbered);
+        names.find(|name| !is_used(name)).unwrap_or_else(|| format!("{preferred}_as_it_was"))
     }
 
     /// Stores a value from before the program, and returns its name.
-    pub(super) fn keep(&mut self, wanted: &str, value: &str) -> String {
-        let name = self.name(wanted);
+    pub(super) fn keep(&mut self, preferred: &str, value: &str) -> String {
+        let name = self.name(preferred);
         self.repair.before.push(format!("const {name} = {value}"));
         name
     }

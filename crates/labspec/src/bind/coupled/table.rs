@@ -1,7 +1,7 @@
 //! The pairs: a parameter, the partner that depends on it, and the dependency.
 
 use super::change::Changes;
-use super::statements::Statements;
+use super::statements::StatementWriter;
 use super::{bits, follow, repair};
 use crate::rules::{self, Rule};
 use labspec_core::Model;
@@ -9,11 +9,11 @@ use labspec_core::reflect::{FieldId, model, option};
 use std::ops::Range;
 
 /// Writes the statements that change the partner of these objects; `None` where that is impossible.
-type Repair = fn(&mut Statements<'_>, &[usize]) -> Option<()>;
+type Repair = fn(&mut StatementWriter<'_>, &[usize]) -> Option<()>;
 
 /// A parameter of a model, and the partner that must change with it.
 #[derive(Debug)]
-pub(crate) struct Pair {
+pub(crate) struct CoupledPair {
     /// The field of the parameter.
     pub(crate) parameter: FieldId,
     /// The field of the partner.
@@ -36,8 +36,8 @@ pub(crate) struct Pair {
 }
 
 /// All pairs.
-pub(crate) const PAIRS: &[Pair] = &[
-    Pair {
+pub(crate) const PAIRS: &[CoupledPair] = &[
+    CoupledPair {
         parameter: model::body_mass,
         partner: model::body_inertia,
         left: "`model.body_inertia`",
@@ -48,7 +48,7 @@ pub(crate) const PAIRS: &[Pair] = &[
         partners: |b| 3 * b..3 * b + 3,
         repair: Some(repair::inertia_of_mass),
     },
-    Pair {
+    CoupledPair {
         parameter: model::body_inertia,
         partner: model::body_mass,
         left: "`model.body_mass`",
@@ -59,7 +59,7 @@ pub(crate) const PAIRS: &[Pair] = &[
         partners: |i| i / 3..i / 3 + 1,
         repair: None,
     },
-    Pair {
+    CoupledPair {
         parameter: model::body_inertia,
         partner: model::body_inertia,
         left: "the other principal moments",
@@ -70,7 +70,7 @@ pub(crate) const PAIRS: &[Pair] = &[
         partners: |_| 0..0,
         repair: None,
     },
-    Pair {
+    CoupledPair {
         parameter: model::geom_size,
         partner: model::geom_rbound,
         left: "`model.geom_rbound`",
@@ -81,7 +81,7 @@ pub(crate) const PAIRS: &[Pair] = &[
         partners: |i| i / 3..i / 3 + 1,
         repair: Some(repair::bound_of_size),
     },
-    Pair {
+    CoupledPair {
         parameter: model::geom_size,
         partner: model::body_inertia,
         left: "`model.body_inertia`",
@@ -92,7 +92,7 @@ pub(crate) const PAIRS: &[Pair] = &[
         partners: |_| 0..0,
         repair: Some(repair::inertia_of_size),
     },
-    Pair {
+    CoupledPair {
         parameter: model::geom_pos,
         partner: model::body_ipos,
         left: "`model.body_ipos`",
@@ -103,7 +103,7 @@ pub(crate) const PAIRS: &[Pair] = &[
         partners: |_| 0..0,
         repair: Some(repair::centre_of_place),
     },
-    Pair {
+    CoupledPair {
         parameter: model::actuator_gainprm,
         partner: model::actuator_biasprm,
         left: "`model.actuator_biasprm`",
@@ -114,7 +114,7 @@ pub(crate) const PAIRS: &[Pair] = &[
         partners: |i| i + 1..i + 3,
         repair: Some(repair::bias_of_gain),
     },
-    Pair {
+    CoupledPair {
         parameter: model::actuator_biasprm,
         partner: model::actuator_gainprm,
         left: "`model.actuator_gainprm`",
@@ -125,7 +125,7 @@ pub(crate) const PAIRS: &[Pair] = &[
         partners: |i| i / 10 * 10..i / 10 * 10 + 1,
         repair: Some(repair::gain_of_bias),
     },
-    Pair {
+    CoupledPair {
         parameter: model::geom_contype,
         partner: model::body_contype,
         left: "`model.body_contype`",
@@ -136,7 +136,7 @@ pub(crate) const PAIRS: &[Pair] = &[
         partners: |_| 0..0,
         repair: Some(bits::repair_types),
     },
-    Pair {
+    CoupledPair {
         parameter: model::geom_conaffinity,
         partner: model::body_conaffinity,
         left: "`model.body_conaffinity`",
@@ -148,11 +148,11 @@ pub(crate) const PAIRS: &[Pair] = &[
         repair: Some(bits::repair_affinities),
     },
     MIDPHASE,
-    Pair { parameter: model::geom_conaffinity, ..MIDPHASE },
+    CoupledPair { parameter: model::geom_conaffinity, ..MIDPHASE },
 ];
 
 /// A geom whose contact bits are set although it is missing in the tree of bounding volumes of its body.
-const MIDPHASE: Pair = Pair {
+const MIDPHASE: CoupledPair = CoupledPair {
     parameter: model::geom_contype,
     partner: option::disableflags,
     left: "the bounding volumes of its body",

@@ -56,7 +56,7 @@ pub(super) fn make(
     seen: &mut LabDisplays<'_>,
     findings: &mut Vec<Finding>,
 ) -> Result<Attempt, run::RunError> {
-    let (lab, wanted) = (ready.lab, trial.length);
+    let (lab, requested) = (ready.lab, trial.length);
     for action in &trial.interaction.actions {
         if let (Some(control), Some(value)) = (lab.controls.get(action.control), &action.value) {
             settings::value(control, value)?;
@@ -66,7 +66,7 @@ pub(super) fn make(
     let timestep = session.world.model.opt.timestep;
     // The length of a plot can be shortened to the maximum number of steps. A length that the author sets is an error if
     // it is too long.
-    let until = lab.stop_at.is_none().then(|| wanted.min(timestep * (run::MAX_STEPS - 1) as f64));
+    let until = lab.stop_at.is_none().then(|| requested.min(timestep * (run::MAX_STEPS - 1) as f64));
     let steps = run::count_steps(lab, until, None, timestep)?;
 
     let mut watcher = case.watcher(&trial.interaction, &session);
@@ -91,7 +91,7 @@ pub(super) fn make(
         Some(End::Threw | End::Foreign) => Some(EndedRun::Threw),
         Some(End::Budget { .. } | End::Interrupted) => Some(EndedRun::Spent),
     };
-    let covered = if made == steps { wanted } else { made as f64 * timestep };
+    let covered = if made == steps { requested } else { made as f64 * timestep };
     let (broke, tried_work) = report_breaks(lab, case, trial, &session, seen, findings);
     findings.extend(seen.take());
     let (spent, faults) = (session.spent() + tried_work, watcher.faults(&session));

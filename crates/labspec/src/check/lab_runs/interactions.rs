@@ -7,14 +7,14 @@ use crate::finding::{Finding, Severity};
 use crate::rules;
 use crate::run::Budget;
 use crate::spec::Lab;
-use crate::stress::{self, FaultGroup, Interaction, Kind};
+use crate::stress::{self, FaultGroup, Interaction, InteractionKind};
 
 /// Factor of the length of the last run.
 const LENGTH_FACTOR: f64 = 10.0;
 
 /// No interaction.
 pub(super) fn nothing() -> Interaction {
-    Interaction { kind: Kind::AsItStands, actions: Vec::new() }
+    Interaction { kind: InteractionKind::AsItStands, actions: Vec::new() }
 }
 
 /// Makes these runs within the budget, and reports the faults of all runs.
@@ -27,11 +27,11 @@ pub(super) fn go_on(state: &mut LabRunState<'_>, left: &mut u64, findings: &mut 
 }
 
 fn try_more(state: &mut LabRunState<'_>, left: &mut u64, findings: &mut Vec<Finding>) {
-    let (interactions, missing) = list_interactions(state.ready.lab, state.wanted);
+    let (interactions, missing) = list_interactions(state.ready.lab, state.requested);
     state.skip(missing);
     for (interaction, length) in interactions {
         let done = match interaction.kind {
-            Kind::AsItStands => "as it stands, in a long run".to_string(),
+            InteractionKind::AsItStands => "as it stands, in a long run".to_string(),
             _ => interaction.describe(&state.ready.programs),
         };
         let trial = Trial { interaction, length, done, control: None, moved: None };
@@ -64,20 +64,27 @@ fn try_more(state: &mut LabRunState<'_>, left: &mut u64, findings: &mut Vec<Find
     } else if state.tried.as_ref().is_some_and(|t| t.skipped == 0) {
         let made = state.tried.as_ref().map_or(0, |t| t.runs);
         let found =
-            rules::near_its_limit::check_margin(state.ready, &state.case, &nothing(), state.wanted, made);
+            rules::near_its_limit::check_margin(state.ready, &state.case, &nothing(), state.requested, made);
         findings.extend(found);
     }
 }
 
 /// The interactions and their lengths, and the number of pairs of settings that no run covers.
-fn list_interactions(lab: &Lab, wanted: f64) -> (Vec<(Interaction, f64)>, usize) {
-    let several =
-        |h: &Interaction| matches!(h.kind, Kind::Touched | Kind::InOrder | Kind::Corner | Kind::Interleaved);
-    let (all, missing) = stress::list_interactions(lab, wanted, &nothing());
-    let mut all: Vec<(Interaction, f64)> = all.into_iter().filter(several).map(|h| (h, wanted)).collect();
+fn list_interactions(lab: &Lab, requested: f64) -> (Vec<(Interaction, f64)>, usize) {
+    let several = |h: &Interaction| {
+        matches!(
+            h.kind,
+            InteractionKind::Touched
+                | InteractionKind::InOrder
+                | InteractionKind::Corner
+                | InteractionKind::Interleaved
+        )
+    };
+    let (all, missing) = stress::list_interactions(lab, requested, &nothing());
+    let mut all: Vec<(Interaction, f64)> = all.into_iter().filter(several).map(|h| (h, requested)).collect();
     // A lab with a stop time is never run longer.
     if lab.stop_at.is_none() {
-        all.push((nothing(), LENGTH_FACTOR * wanted));
+        all.push((nothing(), LENGTH_FACTOR * requested));
     }
     (all, missing)
 }

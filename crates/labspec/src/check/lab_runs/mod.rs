@@ -12,7 +12,7 @@ use crate::finding::Finding;
 use crate::rules;
 use crate::run::{self, Budget};
 use crate::spec::{Control, ControlKind, Lab, LabAddress, Lesson};
-use crate::stress::{self, Action, Fault, FaultGroup, Interaction, Kind, StressCase};
+use crate::stress::{self, Action, Fault, FaultGroup, Interaction, InteractionKind, StressCase};
 use attempt::{Attempt, EndedRun};
 pub(crate) use display::{WatchedDisplay, moment};
 use labspec_expr::Value;
@@ -32,7 +32,7 @@ pub struct Coverage {
     pub runs: usize,
     /// Intended length of each run, s.
     #[serde(with = "crate::verify::float_bits")]
-    pub wanted: f64,
+    pub requested: f64,
     /// Length of the shortest run, s.
     #[serde(with = "crate::verify::float_bits")]
     pub covered: f64,
@@ -73,7 +73,7 @@ fn impossible(place: Range<usize>, e: run::RunError) -> Finding {
 struct LabRunState<'a> {
     ready: &'a PreparedLab<'a>,
     case: StressCase<'a>,
-    wanted: f64,
+    requested: f64,
     /// The remaining runs with controls, in order.
     left: std::vec::IntoIter<Trial<'a>>,
     /// The faults of its runs, each kind once.
@@ -136,7 +136,7 @@ pub(super) fn run_labs(
         let all = state.tried.as_ref().is_some_and(|t| t.skipped == 0 && t.ended.is_none());
         found.extend(state.seen.never(all));
         if all && state.ready.mistakes == 0 && !state.lost {
-            observations::check_observations(state.ready, &state.records, state.wanted, found);
+            observations::check_observations(state.ready, &state.records, state.requested, found);
         }
     }
     // Further interactions have a separate budget.
@@ -177,12 +177,12 @@ fn begin<'a>(
     left: &mut u64,
     findings: &mut Vec<Finding>,
 ) -> LabRunState<'a> {
-    let wanted = stress::window(ready.lab);
-    let trials = trials(ready.lab, wanted);
+    let requested = stress::window(ready.lab);
+    let trials = trials(ready.lab, requested);
     let mut state = LabRunState {
         ready,
         case: StressCase::new(ready.lab, &ready.model, &ready.programs, interactions::nothing()),
-        wanted,
+        requested,
         faults: Vec::new(),
         left: trials.into_iter(),
         seen: LabDisplays::new(ready),
@@ -204,9 +204,15 @@ fn begin<'a>(
             {
                 findings.push(f);
             }
-            state.has_no_remedy = attempt.broke || attempt.covered == 0.0 && wanted > 0.0;
-            state.tried =
-                Some(Coverage { runs: 0, wanted, covered: wanted, skipped: 0, broke: false, ended: None });
+            state.has_no_remedy = attempt.broke || attempt.covered == 0.0 && requested > 0.0;
+            state.tried = Some(Coverage {
+                runs: 0,
+                requested,
+                covered: requested,
+                skipped: 0,
+                broke: false,
+                ended: None,
+            });
             count(&mut state, &first, attempt, left);
         }
         Err(e) => {
@@ -252,10 +258,10 @@ fn count(state: &mut LabRunState<'_>, trial: &Trial<'_>, attempt: Attempt, left:
     tried.broke |= attempt.broke;
     if attempt.covered < tried.covered {
         tried.covered = attempt.covered;
-        let [covered, wanted] = [attempt.covered, state.wanted].map(seconds);
+        let [covered, requested] = [attempt.covered, state.requested].map(seconds);
         tried.ended = match attempt.ended {
-            Some(EndedRun::Threw) => Some(format!("frozen after {covered} of {wanted} s")),
-            Some(EndedRun::Spent) => Some(format!("first {covered} of {wanted} s")),
+            Some(EndedRun::Threw) => Some(format!("frozen after {covered} of {requested} s")),
+            Some(EndedRun::Spent) => Some(format!("first {covered} of {requested} s")),
             None => None,
         };
     }
@@ -267,11 +273,11 @@ fn seconds(t: f64) -> String {
 }
 
 /// The lab as loaded, then with each control at its ends.
-fn trials(lab: &Lab, wanted: f64) -> Vec<Trial<'_>> {
-    let alone = |action| Interaction { kind: Kind::End, actions: vec![action] };
+fn trials(lab: &Lab, requested: f64) -> Vec<Trial<'_>> {
+    let alone = |action| Interaction { kind: InteractionKind::End, actions: vec![action] };
     let mut trials = vec![Trial {
         interaction: interactions::nothing(),
-        length: wanted,
+        length: requested,
         done: "as it stands".into(),
         control: None,
         moved: None,
@@ -281,7 +287,7 @@ fn trials(lab: &Lab, wanted: f64) -> Vec<Trial<'_>> {
         let mut set = |value: Value| {
             trials.push(Trial {
                 done: format!("with \"{label}\" at {value}"),
-                length: wanted,
+                length: requested,
                 interaction: alone(Action { time: 0.0, control: index, value: Some(value.clone()) }),
                 control: Some(control),
                 moved: Some((index, Some(value))),
@@ -297,9 +303,9 @@ fn trials(lab: &Lab, wanted: f64) -> Vec<Trial<'_>> {
             }
             ControlKind::Button { .. } => trials.push(Trial {
                 done: format!("after \"{label}\" is pressed"),
-                length: wanted,
+                length: requested,
                 interaction: alone(Action {
-                    time: PRESS_TIME.min(0.5 * wanted),
+                    time: PRESS_TIME.min(0.5 * requested),
                     control: index,
                     value: None,
                 }),

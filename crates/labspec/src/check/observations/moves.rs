@@ -98,12 +98,12 @@ pub(crate) fn single_moves(lab: &Lab) -> Vec<(Option<Move>, String)> {
     let mut all = vec![(None, "as the lab stands,".to_string())];
     for (i, control) in lab.controls.iter().enumerate() {
         let label = &control.label.value;
-        let of = |value| Some(Move { step: 1, control: i, value });
+        let move_to = |value| Some(Move { step: 1, control: i, value });
         if matches!(control.kind, ControlKind::Button { .. }) {
-            all.push((of(None), format!("after \"{label}\" is pressed,")));
+            all.push((move_to(None), format!("after \"{label}\" is pressed,")));
         }
         let values = choices(control).into_iter();
-        all.extend(values.map(|v| (of(Some(v.clone())), format!("with \"{label}\" at {v},"))));
+        all.extend(values.map(|v| (move_to(Some(v.clone())), format!("with \"{label}\" at {v},"))));
     }
     all
 }

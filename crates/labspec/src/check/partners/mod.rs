@@ -17,7 +17,7 @@ use crate::json::read::named;
 use crate::ledger::State;
 use crate::source::Text;
 use crate::spec::{Lab, Lesson, Question, Run, Verify};
-use crate::verify::{self, BoundVerify, Judgement, Measured, QuoteState, RenderedText, Stage};
+use crate::verify::{self, BoundVerify, Judgement, Measured, QuoteState, RenderedText, RunCache};
 use dependency::Dependency;
 use std::cell::OnceCell;
 
@@ -56,7 +56,7 @@ pub(super) struct Partners<'a> {
     candidates: Vec<PartnerCandidate<'a>>,
     /// Computed on first use: most lessons change no parameter with coupled parameters.
     corrected: OnceCell<Vec<PreparedLab<'a>>>,
-    stage: Stage<'a>,
+    stage: RunCache<'a>,
 }
 
 /// The numerics of a check.
@@ -132,7 +132,14 @@ impl<'a> Partners<'a> {
         models: &'a Models,
         candidates: Vec<PartnerCandidate<'a>>,
     ) -> Partners<'a> {
-        Partners { lesson, models, labs, candidates, corrected: OnceCell::new(), stage: Stage::new(models) }
+        Partners {
+            lesson,
+            models,
+            labs,
+            candidates,
+            corrected: OnceCell::new(),
+            stage: RunCache::new(models),
+        }
     }
 
     /// All labs of the lesson with every coupled parameter corrected.
@@ -192,10 +199,10 @@ impl<'a> Partners<'a> {
         let base = verify.lab.as_ref().map_or(lab, |named| self.lesson.named(named));
         let of_run = |run| lab_of(self.lesson, base, run);
         let labs: Vec<&Lab> = base.into_iter().chain(verify.runs.iter().filter_map(of_run)).collect();
-        let of = |c: &&PartnerCandidate<'_>| {
+        let follows = |c: &&PartnerCandidate<'_>| {
             labs.iter().any(|lab| c.lab.is_some_and(|of_claim| std::ptr::eq(of_claim, *lab)))
         };
-        let mut all: Vec<PartnerCandidate<'a>> = self.candidates.iter().filter(of).cloned().collect();
+        let mut all: Vec<PartnerCandidate<'a>> = self.candidates.iter().filter(follows).cloned().collect();
         for text in changes(verify) {
             let pairs = PairSet::ALL.without(suppressed_pairs(self.lesson, text, PairSet::ALL));
             let subject = format!("the change of `{}`", text.value);
@@ -235,7 +242,7 @@ impl<'a> Partners<'a> {
         &self,
         case: ClaimOwner<'_>,
         labs: &[PreparedLab<'_>],
-        stage: &Stage<'_>,
+        stage: &RunCache<'_>,
         numerics: TestedNumerics,
     ) -> Option<Judgement> {
         let mut ignored = Vec::new();
@@ -254,7 +261,7 @@ impl<'a> Partners<'a> {
     /// difference intentionally.
     fn is_contrasted(&self, case: ClaimOwner<'_>, first: &Judgement, second: &Judgement) -> bool {
         let [as_is, corrected] = [self.labs, self.corrected()].map(|labs| {
-            let stage = Stage::new(self.models);
+            let stage = RunCache::new(self.models);
             let started = start_runs(self.lesson, labs, case.verify, case.lab, &stage);
             started.map_or(Vec::new(), |started| started.runs)
         });
@@ -288,7 +295,7 @@ impl<'a> Partners<'a> {
                 let programs = vec![(candidate.text.clone(), one)];
                 let alone = Coupled { programs, others: PairSet::NONE, changes, refresh: false };
                 let labs = corrected(self.labs, &alone);
-                let second = self.judge(case, &labs, &Stage::new(self.models), TestedNumerics::All)?;
+                let second = self.judge(case, &labs, &RunCache::new(self.models), TestedNumerics::All)?;
                 differs(first, &second).then_some(one)
             };
             let pairs: PairSet = candidate.pairs.pairs().filter_map(matters).collect();
@@ -342,9 +349,9 @@ fn moved(a: &Measured, b: &Measured) -> bool {
     if a.value.is_nan() || b.value.is_nan() {
         return a.value.is_nan() != b.value.is_nan();
     }
-    let apart = (a.value - b.value).abs();
+    let difference = (a.value - b.value).abs();
     let numerics = a.halved.map_or(0.0, |h| (h - a.value).abs());
-    apart > MIN_RELATIVE_CHANGE * a.value.abs().max(b.value.abs()) && apart > numerics
+    difference > MIN_RELATIVE_CHANGE * a.value.abs().max(b.value.abs()) && difference > numerics
 }
 
 fn pairs<'j>(a: &'j Judgement, b: &'j Judgement) -> impl Iterator<Item = (&'j Measured, &'j Measured)> {
@@ -368,7 +375,7 @@ mod tests {
     use super::*;
     use crate::lint::{ModelFolder, load_lesson_file};
     use crate::run::{Session, Start};
-    use crate::stress::{self, Action, Interaction, Kind};
+    use crate::stress::{self, Action, Interaction, InteractionKind};
     use std::path::{Path, PathBuf};
 
     /// The lessons of a folder, `.md` and `.json`.
@@ -425,12 +432,12 @@ mod tests {
                 let mut labs: Vec<PreparedLab<'_>> = labs.filter_map(bound).collect();
                 let correction = correction(&observe(&lesson, &mut labs));
                 for (ready, amended) in labs.iter().zip(corrected(&labs, &correction)) {
-                    let base = Interaction { kind: Kind::AsItStands, actions: Vec::new() };
+                    let base = Interaction { kind: InteractionKind::AsItStands, actions: Vec::new() };
                     for interaction in stress::list_interactions(ready.lab, 1.0, &base).0 {
                         let (seen, behind) = bits(ready, &ready.programs, &interaction.actions);
-                        let (wanted, _) = bits(&amended, &amended.programs, &interaction.actions);
+                        let (expected, _) = bits(&amended, &amended.programs, &interaction.actions);
                         let what = interaction.describe(&ready.programs);
-                        assert!(behind || seen == wanted, "{}: {what}", path.display());
+                        assert!(behind || seen == expected, "{}: {what}", path.display());
                         if behind { left += 1 } else { clean += 1 }
                     }
                 }

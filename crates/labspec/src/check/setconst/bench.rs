@@ -1,6 +1,6 @@
 //! Runs of a lab, unchanged and with amended programs: the tested interactions and their samples.
 
-use super::difference::Columns;
+use super::difference::RunColumns;
 use super::{ProgramSite, SuspectProgram};
 use crate::bind::coupled::{self, Coupled, PairSet};
 use crate::bind::{Bound, ControlProgram, ModelNames, Programs, Scope, include};
@@ -61,9 +61,9 @@ impl<'a> SetConstBench<'a> {
     }
 
     /// The columns of the samples of its runs.
-    pub(super) fn columns(&self, s: &SuspectProgram<'_>) -> Columns<'a> {
+    pub(super) fn columns(&self, s: &SuspectProgram<'_>) -> RunColumns<'a> {
         let whole = matches!(s.place, ProgramSite::Run(_)) || self.programs.probes.is_empty();
-        Columns { whole, lab: self.lab, programs: self.programs }
+        RunColumns { whole, lab: self.lab, programs: self.programs }
     }
 
     /// The model of the lab.
@@ -165,8 +165,8 @@ impl<'a> SetConstBench<'a> {
                     vec![(Move::Press(index), format!("after \"{label}\" is pressed"))]
                 }
                 _ => {
-                    let of = |v: Value| (Move::Set(index, v.clone()), format!("with \"{label}\" at {v}"));
-                    choices(control).into_iter().map(of).collect()
+                    let trial = |v: Value| (Move::Set(index, v.clone()), format!("with \"{label}\" at {v}"));
+                    choices(control).into_iter().map(trial).collect()
                 }
             }
         };

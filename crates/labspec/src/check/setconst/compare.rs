@@ -3,18 +3,18 @@
 use super::SuspectProgram;
 use super::advice::{self, SetConstAdvice};
 use super::bench::{AmendedLab, BenchTrial, SampleRows, SetConstBench};
-use super::difference::{Difference, PERTURBATION_FACTOR};
+use super::difference::{PERTURBATION_FACTOR, SampleDifference};
 use crate::bind::coupled::{PairSet, Repair};
 use crate::run::StepVariant;
 use crate::verify::HALVED;
 
-/// A start that is perturbed by less than anybody can set.
+/// A start with a perturbation that is smaller than any input resolution.
 const PERTURBED_START: StepVariant = StepVariant { perturbation: 1e-9, ..StepVariant::NOMINAL };
 /// Fraction of the range by which a repaired run may differ from the corrected one, because of the order of operations.
 const ROUNDED: f64 = 1e-6;
 
 /// The effects of a program in the runs of a lab.
-pub(super) struct Compared {
+pub(super) struct ProgramEffects {
     /// The effect of the constants, in words.
     pub(super) constants: Option<String>,
     /// The effect of the coupled parameters, in words, and the pairs that cause it; `None` where there is none.
@@ -27,7 +27,7 @@ pub(super) struct Compared {
 }
 
 /// The runs of one trial.
-struct Runs<'t> {
+struct TrialRuns<'t> {
     trial: &'t BenchTrial,
     as_is: SampleRows,
     /// With constants recomputed.
@@ -36,7 +36,7 @@ struct Runs<'t> {
     corrected: Option<SampleRows>,
 }
 
-impl Runs<'_> {
+impl TrialRuns<'_> {
     /// The run with coupled parameters corrected.
     fn corrected(&self) -> &SampleRows {
         self.corrected.as_ref().unwrap_or(&self.anew)
@@ -56,7 +56,7 @@ struct LabVariants {
 
 impl SetConstBench<'_> {
     /// Makes all runs. `Err` states why constants could not be tested.
-    pub(super) fn compare(&mut self, s: &SuspectProgram<'_>) -> Result<Compared, String> {
+    pub(super) fn compare(&mut self, s: &SuspectProgram<'_>) -> Result<ProgramEffects, String> {
         let steps = self.steps(s)?;
         let trials = self.trials(s, steps);
         let as_is = self.observed(s, false);
@@ -64,7 +64,7 @@ impl SetConstBench<'_> {
         let coupled = (!s.pairs.is_empty()).then(|| self.corrected(s, s.pairs));
         let variants = LabVariants { as_is, refreshed, coupled, steps };
         let (mut untested, mut uncoupled) = (None, None);
-        let mut all: Vec<Runs<'_>> = Vec::new();
+        let mut all: Vec<TrialRuns<'_>> = Vec::new();
         for trial in &trials {
             match self.runs(s, &variants, trial, &mut uncoupled) {
                 Ok(runs) => all.push(runs),
@@ -105,7 +105,7 @@ impl SetConstBench<'_> {
             Some(difference.describe(&r.trial.description, &format!("the constants recomputed{and}")))
         });
         let (advice, repaired) = self.choose_advice(s, matter, constants.is_some(), &all, steps);
-        Ok(Compared { constants, partners, advice, repaired, untested: uncoupled })
+        Ok(ProgramEffects { constants, partners, advice, repaired, untested: uncoupled })
     }
 
     /// The suggestion, and the corrected text if one gives the same runs.
@@ -114,7 +114,7 @@ impl SetConstBench<'_> {
         s: &SuspectProgram<'_>,
         matter: PairSet,
         constants: bool,
-        all: &[Runs<'_>],
+        all: &[TrialRuns<'_>],
         steps: usize,
     ) -> (SetConstAdvice, Option<String>) {
         let repair = Repair::of_program(s.bound, matter, self.model()).filter(|_| !matter.is_empty());
@@ -141,7 +141,7 @@ impl SetConstBench<'_> {
         variants: &LabVariants,
         trial: &'t BenchTrial,
         uncoupled: &mut Option<String>,
-    ) -> Result<Runs<'t>, String> {
+    ) -> Result<TrialRuns<'t>, String> {
         let describe = |reason: String| format!("{}, {reason}", trial.description);
         let steps = variants.steps;
         let (as_is, left) = self.observe(s, &variants.as_is, trial, steps).map_err(describe)?;
@@ -157,7 +157,7 @@ impl SetConstBench<'_> {
                 None
             }
         };
-        Ok(Runs { trial, as_is, anew, corrected })
+        Ok(TrialRuns { trial, as_is, anew, corrected })
     }
 
     /// Whether these statements in place of a program give the corrected runs, to this fraction of the range.
@@ -165,7 +165,7 @@ impl SetConstBench<'_> {
         &mut self,
         s: &SuspectProgram<'_>,
         text: &str,
-        all: &[Runs<'_>],
+        all: &[TrialRuns<'_>],
         steps: usize,
         part: f64,
     ) -> bool {
@@ -184,12 +184,12 @@ impl SetConstBench<'_> {
     fn partners(
         &mut self,
         s: &SuspectProgram<'_>,
-        all: &[Runs<'_>],
+        all: &[TrialRuns<'_>],
         variants: &LabVariants,
     ) -> Option<(String, PairSet)> {
         let columns = self.columns(s);
         let (refreshed, steps) = (variants.refreshed.as_ref(), variants.steps);
-        let (runs, found): (&Runs<'_>, Difference) = all.iter().find_map(|runs| {
+        let (runs, found): (&TrialRuns<'_>, SampleDifference) = all.iter().find_map(|runs| {
             let noise = || {
                 let moved = self.record_under(s, refreshed, runs.trial, steps, PERTURBED_START).ok()?;
                 let halved = self.record_under(s, refreshed, runs.trial, steps, HALVED).ok()?;

@@ -11,13 +11,13 @@ const VISIBLE: f64 = 1e-9;
 const ROUNDING: f64 = 1e-12;
 
 /// A sample that differs between two runs.
-pub(super) struct Difference {
+pub(super) struct SampleDifference {
     name: String,
     time: f64,
     cells: (Cell, Cell),
 }
 
-impl Difference {
+impl SampleDifference {
     /// The difference in words; `anew` describes the second run.
     pub(super) fn describe(&self, trial: &str, anew: &str) -> String {
         let (x, y) = match &self.cells {
@@ -33,7 +33,7 @@ impl Difference {
 }
 
 /// The columns of a run: time, traces, readouts, and coordinates where they are sampled.
-pub(super) struct Columns<'a> {
+pub(super) struct RunColumns<'a> {
     /// Whether coordinates are compared besides displayed values.
     pub(super) whole: bool,
     pub(super) lab: &'a Lab,
@@ -77,7 +77,7 @@ fn largest_difference(a: &[Vec<Cell>], b: &[Vec<Cell>], column: usize) -> Larges
     LargestDifference { range: high - low, largest: low.abs().max(high.abs()), ..found }
 }
 
-impl Columns<'_> {
+impl RunColumns<'_> {
     /// The largest difference of two runs beyond the effect of numerics: first in displayed values, then in coordinates.
     /// `noise` repeats the first run under perturbed numerics, each with the factor by which a difference must exceed its
     /// effect.
@@ -86,7 +86,7 @@ impl Columns<'_> {
         a: &[Vec<Cell>],
         b: &[Vec<Cell>],
         noise: impl FnOnce() -> Option<Vec<(Vec<Vec<Cell>>, f64)>>,
-    ) -> Option<Difference> {
+    ) -> Option<SampleDifference> {
         let width = a.first().map_or(0, Vec::len);
         let all = (1..width).map(|column| (column, largest_difference(a, b, column)));
         let seen =
@@ -106,7 +106,7 @@ impl Columns<'_> {
             .filter(beyond)
             .max_by(|(i, x), (j, y)| coordinate(*j).cmp(&coordinate(*i)).then(part(x).total_cmp(&part(y))))?;
         let cells = d.cells.map(Cell::Number);
-        Some(Difference { name: self.column(column), time: d.time, cells: cells.into() })
+        Some(SampleDifference { name: self.column(column), time: d.time, cells: cells.into() })
     }
 
     /// Whether no number of two runs differs by more than this fraction of the range of its column.
@@ -117,10 +117,10 @@ impl Columns<'_> {
     }
 
     /// The largest visible difference of two runs in displayed values, or in coordinates if the lab displays nothing.
-    pub(super) fn difference(&self, a: &[Vec<Cell>], b: &[Vec<Cell>]) -> Option<Difference> {
+    pub(super) fn difference(&self, a: &[Vec<Cell>], b: &[Vec<Cell>]) -> Option<SampleDifference> {
         let width = a.first().map_or(0, Vec::len);
         let width = if self.whole { width } else { width.min(1 + self.programs.probes.len()) };
-        let mut worst: Option<(f64, Difference)> = None;
+        let mut worst: Option<(f64, SampleDifference)> = None;
         for column in 1..width {
             let cells =
                 || a.iter().zip(b).filter_map(|(x, y)| Some((x.first()?, x.get(column)?, y.get(column)?)));
@@ -132,8 +132,10 @@ impl Columns<'_> {
                 let Some(size) = self.visible(column, x, y, range, largest) else { continue };
                 if worst.as_ref().is_none_or(|(most, _)| size > *most) {
                     let name = self.column(column);
-                    worst =
-                        Some((size, Difference { name, time: time.number(), cells: (x.clone(), y.clone()) }));
+                    worst = Some((
+                        size,
+                        SampleDifference { name, time: time.number(), cells: (x.clone(), y.clone()) },
+                    ));
                 }
             }
         }
@@ -149,14 +151,14 @@ impl Columns<'_> {
         if p == q {
             return None;
         }
-        let apart = (p - q).abs();
+        let difference = (p - q).abs();
         let printed = || {
             let readout = column.checked_sub(1 + self.lab.traces().count());
             let readout = readout.and_then(|i| self.lab.readouts.get(i));
             readout.is_some_and(|r| run::rounded(*p, r.digits()) != run::rounded(*q, r.digits()))
         };
-        let seen = apart > VISIBLE * range || printed();
-        (seen && apart > ROUNDING * largest).then_some(apart / range)
+        let seen = difference > VISIBLE * range || printed();
+        (seen && difference > ROUNDING * largest).then_some(difference / range)
     }
 
     /// The name of a column.

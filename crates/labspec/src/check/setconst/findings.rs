@@ -2,9 +2,9 @@
 
 use super::advice::SetConstAdvice;
 use super::bench::SetConstBench;
-use super::compare::Compared;
+use super::compare::ProgramEffects;
 use super::{ProgramSite, SuspectProgram};
-use crate::bind::coupled::{Pair, PairSet};
+use crate::bind::coupled::{CoupledPair, PairSet};
 use crate::finding::{Applicability, Finding, Fix, Severity};
 use crate::rules::{self, Rule};
 
@@ -30,7 +30,7 @@ impl SetConstBench<'_> {
     fn has_uncoupled_change(
         &self,
         s: &SuspectProgram<'_>,
-        compared: &Compared,
+        compared: &ProgramEffects,
         mut fix: Option<Fix>,
     ) -> Vec<Finding> {
         let (evidence, pairs, severity) = match (&compared.partners, &compared.untested) {
@@ -71,8 +71,8 @@ impl SetConstBench<'_> {
 }
 
 /// The pairs of a set by the rule that they violate.
-pub(in crate::check) fn by_rule(pairs: PairSet) -> Vec<(&'static Rule, Vec<&'static Pair>)> {
-    let mut all: Vec<(&'static Rule, Vec<&'static Pair>)> = Vec::new();
+pub(in crate::check) fn by_rule(pairs: PairSet) -> Vec<(&'static Rule, Vec<&'static CoupledPair>)> {
+    let mut all: Vec<(&'static Rule, Vec<&'static CoupledPair>)> = Vec::new();
     for (_, pair) in pairs.pairs() {
         match all.iter_mut().find(|(rule, _)| rule.code == pair.rule.code) {
             Some((_, list)) => list.push(pair),
@@ -87,7 +87,7 @@ pub(in crate::check) fn left(
     rule: &'static Rule,
     span: std::ops::Range<usize>,
     who: &str,
-    pairs: &[&Pair],
+    pairs: &[&CoupledPair],
     severity: Severity,
 ) -> Finding {
     let (mut parameters, mut partners, mut help) = (Vec::new(), Vec::new(), Vec::new());
@@ -128,7 +128,7 @@ fn help_for_constants(s: &SuspectProgram<'_>, advice: SetConstAdvice) -> String 
 }
 
 /// The repaired program in place of the text. The fix is unsafe, because the author may intend the inertia to stay.
-fn replacement(s: &SuspectProgram<'_>, compared: &Compared) -> Option<Fix> {
+fn replacement(s: &SuspectProgram<'_>, compared: &ProgramEffects) -> Option<Fix> {
     let text = compared.repaired.as_ref().filter(|_| !s.target)?;
     let json = serde_json::Value::from(text.as_str()).to_string();
     let text = json.trim_start_matches('"');
@@ -147,7 +147,7 @@ fn about_constants(s: &SuspectProgram<'_>) -> Option<Finding> {
 }
 
 /// The finding that constants are not recomputed, where the effect is visible.
-fn missing(s: &SuspectProgram<'_>, compared: &Compared) -> Option<Finding> {
+fn missing(s: &SuspectProgram<'_>, compared: &ProgramEffects) -> Option<Finding> {
     let evidence = compared.constants.as_ref()?;
     let finding = about_constants(s)?.why(format!("{CONSTANTS}: {evidence}"));
     let reason = match compared.advice {

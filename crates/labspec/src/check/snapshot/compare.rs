@@ -22,7 +22,7 @@ pub struct Divergence {
     /// The stored value.
     pub stored: String,
     /// The current value, with one more digit.
-    pub now: String,
+    pub current: String,
     /// The tolerance of a number; `None` for other values.
     #[serde(with = "crate::verify::float_bits")]
     pub tolerance: Option<f64>,
@@ -34,7 +34,7 @@ pub struct Divergence {
 
 /// The difference between a lab and its stored values.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Difference {
+pub(super) struct SnapshotDifference {
     /// The changes of the lab, one clause each.
     pub(super) changes: Vec<String>,
     /// The first value that differs, and the index of its trace or readout in the lab.
@@ -43,17 +43,17 @@ pub(super) struct Difference {
     pub(super) rows: usize,
 }
 
-pub(super) fn compare(stored: &StoredLab, now: &[&SnapshotRun]) -> Difference {
-    let mut all = Difference::default();
+pub(super) fn compare(stored: &StoredLab, current: &[&SnapshotRun]) -> SnapshotDifference {
+    let mut all = SnapshotDifference::default();
     let called = |run: &SnapshotRun| printable(&run.name).into_owned();
     for old in &stored.runs {
-        match now.iter().find(|run| called(run) == old.name) {
+        match current.iter().find(|run| called(run) == old.name) {
             None => all.changes.push(format!("the run {} is no longer made", old.name)),
             Some(run) => compare_run(old, run, &mut all),
         }
     }
     let new =
-        now.iter().map(|run| called(run)).filter(|name| stored.runs.iter().all(|old| old.name != *name));
+        current.iter().map(|run| called(run)).filter(|name| stored.runs.iter().all(|old| old.name != *name));
     all.changes.extend(new.map(|name| format!("the run {name} is new")));
     all.changes.dedup();
     let mut reported = Vec::new();
@@ -65,7 +65,7 @@ pub(super) fn compare(stored: &StoredLab, now: &[&SnapshotRun]) -> Difference {
     all
 }
 
-fn compare_run(old: &StoredRun, run: &SnapshotRun, all: &mut Difference) {
+fn compare_run(old: &StoredRun, run: &SnapshotRun, all: &mut SnapshotDifference) {
     if old.about.len() == run.about.len() {
         let pairs = old.about.iter().zip(&run.about).filter(|(a, b)| a != b);
         all.changes.extend(pairs.map(|(a, b)| format!("{a} is now {b}")));
@@ -99,7 +99,12 @@ fn compare_run(old: &StoredRun, run: &SnapshotRun, all: &mut Difference) {
 }
 
 /// Pairs stored rows with those of the run: by name, and rows of equal name in order. Rows without a pair are changes.
-fn pairs(old: &StoredRun, run: &SnapshotRun, moved: bool, all: &mut Difference) -> Vec<(usize, usize)> {
+fn pairs(
+    old: &StoredRun,
+    run: &SnapshotRun,
+    moved: bool,
+    all: &mut SnapshotDifference,
+) -> Vec<(usize, usize)> {
     let mut free: Vec<usize> = (0..run.rows.len()).collect();
     let (mut pairs, mut lost) = (Vec::new(), Vec::new());
     for (i, row) in old.rows.iter().enumerate() {
@@ -134,8 +139,8 @@ fn named(name: &str) -> String {
 }
 
 /// Whether a value equals the stored one.
-fn agrees(stored: &str, now: &Cell) -> bool {
-    match (digits::read(stored), now) {
+fn agrees(stored: &str, current: &Cell) -> bool {
+    match (digits::read(stored), current) {
         _ if stored == NO_CERTAIN_DIGIT => true,
         (Some((x, unit)), Cell::Number(y)) => (x - y).abs() <= digits::tolerance(unit),
         (None, cell) => {
@@ -153,7 +158,7 @@ fn divergence(old: &StoredRun, run: &SnapshotRun, i: usize, j: usize, k: usize) 
     let (row, (name, cells)) = (old.rows.get(i)?, run.rows.get(j)?);
     let (stored, cell) = (row.cells.get(k)?, cells.get(k)?);
     let unit = digits::read(stored).map(|(_, unit)| unit);
-    let now = match (cell, unit) {
+    let current = match (cell, unit) {
         (Cell::Number(x), Some(unit)) if x.is_finite() => digits::written(*x, unit - 1),
         (Cell::Number(x), None) if x.is_finite() => significant(*x),
         _ => plain(cell),
@@ -165,7 +170,7 @@ fn divergence(old: &StoredRun, run: &SnapshotRun, i: usize, j: usize, k: usize) 
         trace: name.clone(),
         time: run.times.get(k).copied()?,
         stored: stored.clone(),
-        now,
+        current,
         tolerance: unit.map(|unit| 0.5 * digits::ten(unit)),
         line: row.line,
         picture: picture(&run.times, &before, &after),

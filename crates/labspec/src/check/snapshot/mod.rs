@@ -19,7 +19,7 @@ use crate::run::{Budget, StepVariant};
 use crate::source::SourceFile;
 use crate::spec::{Lab, Lesson};
 use crate::verify::{HALVED, PERTURBED_BACK, PERTURBED_START, significant};
-use compare::Difference;
+use compare::SnapshotDifference;
 use file::{SnapshotFault, StoredLab};
 use runs::{LabRuns, SnapshotRun};
 use serde::{Deserialize, Serialize};
@@ -50,7 +50,7 @@ impl SnapshotResult {
     pub fn word(&self) -> &'static str {
         match self.state {
             State::True(_) => "as stored",
-            State::LeftOut => "left out",
+            State::Skipped => "left out",
             State::False if self.divergence.is_some() => "differs",
             State::False => "changed",
             _ => "unchecked",
@@ -75,7 +75,7 @@ impl SnapshotResult {
     pub fn lines(&self) -> Vec<String> {
         let Some(d) = &self.divergence else { return Vec::new() };
         let within = d.tolerance.map_or(String::new(), |t| format!(" (± {})", significant(t)));
-        let head = format!("stored {}{within} in line {}, now {}", d.stored, d.line, d.now);
+        let head = format!("stored {}{within} in line {}, now {}", d.stored, d.line, d.current);
         std::iter::once(head).chain(d.picture.iter().cloned()).collect()
     }
 }
@@ -151,7 +151,7 @@ pub(super) fn check_snapshots(
         lesson.addressed().into_iter().map(with_state).collect::<Vec<_>>()
     };
     if !level.labs {
-        return if level.claims { Vec::new() } else { all(State::LeftOut, "") };
+        return if level.claims { Vec::new() } else { all(State::Skipped, "") };
     }
     let labs = match stored {
         Ok(labs) => labs,
@@ -189,7 +189,8 @@ fn removed_labs<'a>(
     labs: &'a [StoredLab],
     lab_runs: &'a [LabRuns<'_, '_>],
 ) -> impl Iterator<Item = SnapshotResult> + 'a {
-    let is_gone = |lab: &&StoredLab| lab_runs.iter().all(|now| now.address.to_string() != lab.address);
+    let is_gone =
+        |lab: &&StoredLab| lab_runs.iter().all(|current| current.address.to_string() != lab.address);
     labs.iter().filter(is_gone).map(|lab| SnapshotResult {
         lab: lab.address.clone(),
         span: 0..0,
@@ -203,37 +204,41 @@ fn removed_labs<'a>(
 
 /// Compares one lab with its stored values.
 fn compare_lab(
-    now: &LabRuns<'_, '_>,
+    current: &LabRuns<'_, '_>,
     labs: &[StoredLab],
     lesson: &Lesson,
     findings: &mut Vec<Finding>,
 ) -> SnapshotResult {
-    let mut result = unchecked(&now.address, now.lab);
-    if now.runs.is_empty() {
+    let mut result = unchecked(&current.address, current.lab);
+    if current.runs.is_empty() {
         (result.state, result.reason) = (State::Unchecked, "it cannot run".into());
         return result;
     }
-    let place = now.lab.place();
+    let place = current.lab.place();
     let Some(old) = labs.iter().find(|lab| lab.address == result.lab) else {
         (result.state, result.changes) = (State::False, vec!["the lab is not in the snapshot".into()]);
         let message = format!("the lab {} is not in the snapshot", printable(&result.lab));
         findings.push(outdated(place, message, lesson));
         return result;
     };
-    let runs: Vec<&SnapshotRun> = now.runs.iter().map(|(_, run)| run).collect();
-    let Difference { changes, first, rows } = compare::compare(old, &runs);
+    let runs: Vec<&SnapshotRun> = current.runs.iter().map(|(_, run)| run).collect();
+    let SnapshotDifference { changes, first, rows } = compare::compare(old, &runs);
     let file = lesson.snapshot.as_ref().and_then(|s| s.as_ref().ok()).map_or(String::new(), name_of);
     if let Some((d, probe)) = &first {
         let message = format!(
             "\"{}\" differs from the snapshot: {} it is {} at t = {} s, but {file} has {}",
             printable(&d.trace),
             d.run,
-            d.now,
+            d.current,
             significant(d.time),
             printable(&d.stored)
         );
-        let label =
-            now.lab.traces().map(|t| &t.label).chain(now.lab.readouts.iter().map(|r| &r.label)).nth(*probe);
+        let label = current
+            .lab
+            .traces()
+            .map(|t| &t.label)
+            .chain(current.lab.readouts.iter().map(|r| &r.label))
+            .nth(*probe);
         let place = label.map_or(place.clone(), |label| label.span());
         let mut finding = Finding::new(rules::SNAPSHOT_DIFFERS, place, message).help(review(lesson));
         if !changes.is_empty() {
@@ -273,10 +278,10 @@ pub fn update_snapshot(lesson: &Lesson, models: &Models) -> SnapshotUpdate {
         Some(Err(fault)) => (Vec::new(), Some(fault)),
     };
     let lab_runs = runs::run_labs(lesson, &ready);
-    let one = |now: &LabRuns<'_, '_>| {
-        let result = compare_lab(now, &old, lesson, &mut Vec::new());
+    let one = |current: &LabRuns<'_, '_>| {
+        let result = compare_lab(current, &old, lesson, &mut Vec::new());
         let stored_text = old.iter().find(|lab| lab.address == result.lab).map(|lab| lab.text.clone());
-        UpdatedLab { result, old: stored_text, new: current_lines(now) }
+        UpdatedLab { result, old: stored_text, new: current_lines(current) }
     };
     let mut labs: Vec<UpdatedLab> = lab_runs.iter().map(one).collect();
     let lost = removed_labs(&old, &lab_runs).map(|result| {
@@ -291,13 +296,13 @@ pub fn update_snapshot(lesson: &Lesson, models: &Models) -> SnapshotUpdate {
 }
 
 /// The lines of a lab, with the digits that the numerics determine.
-fn current_lines(now: &LabRuns<'_, '_>) -> Option<String> {
-    let ready = now.ready.filter(|_| !now.runs.is_empty())?;
+fn current_lines(current: &LabRuns<'_, '_>) -> Option<String> {
+    let ready = current.ready.filter(|_| !current.runs.is_empty())?;
     let under = |numerics: StepVariant, input| {
         let budget = Budget { left: 3 * Budget::TRIAL.left };
         runs::play(ready, input, numerics, budget).ok().map(|(run, _)| run)
     };
-    let runs: Vec<(SnapshotRun, Vec<SnapshotRun>)> = now
+    let runs: Vec<(SnapshotRun, Vec<SnapshotRun>)> = current
         .runs
         .iter()
         .map(|(input, run)| {
@@ -306,5 +311,9 @@ fn current_lines(now: &LabRuns<'_, '_>) -> Option<String> {
             (run.clone(), others.collect())
         })
         .collect();
-    Some(file::lab(&now.address.to_string(), now.lab.title.as_ref().map_or("", |t| t.as_str()), &runs))
+    Some(file::lab(
+        &current.address.to_string(),
+        current.lab.title.as_ref().map_or("", |t| t.as_str()),
+        &runs,
+    ))
 }

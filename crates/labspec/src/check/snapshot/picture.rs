@@ -8,8 +8,8 @@ const LINES: usize = 9;
 const TIME_WIDTH: usize = 5;
 
 /// `o` is stored, `x` is now, `*` is both. Empty if there are no numbers, or if all are equal.
-pub(super) fn picture(times: &[f64], stored: &[f64], now: &[f64]) -> Vec<String> {
-    let numbers = || stored.iter().chain(now).copied().filter(|x| x.is_finite());
+pub(super) fn picture(times: &[f64], stored: &[f64], current: &[f64]) -> Vec<String> {
+    let numbers = || stored.iter().chain(current).copied().filter(|x| x.is_finite());
     let (low, high) = numbers().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
     let span = high - low;
     if !(span > 0.0 && span.is_finite()) || times.len() < 2 {
@@ -17,7 +17,7 @@ pub(super) fn picture(times: &[f64], stored: &[f64], now: &[f64]) -> Vec<String>
     }
     let line_of = |x: f64| ((high - x) / span * (LINES - 1) as f64).round() as usize;
     let mut grid = vec![vec![' '; (times.len() - 1) * TIME_WIDTH + 1]; LINES];
-    for (curve, letter) in [(stored, 'o'), (now, 'x')] {
+    for (curve, letter) in [(stored, 'o'), (current, 'x')] {
         for (k, x) in curve.iter().enumerate().filter(|(_, x)| x.is_finite()) {
             if let Some(place) = grid.get_mut(line_of(*x)).and_then(|line| line.get_mut(k * TIME_WIDTH)) {
                 *place = if *place == ' ' { letter } else { '*' };

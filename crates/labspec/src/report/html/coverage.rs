@@ -4,17 +4,17 @@ use crate::check::Checked;
 use crate::verify::{self, Stated};
 
 /// The numbers with units of a lesson.
-pub(super) struct Coverage {
+pub(super) struct NumberCoverage {
     /// Number of those with a claim.
     pub(super) claimed: usize,
     /// The others, in the order of the text.
     pub(super) unclaimed: Vec<Stated>,
 }
 
-impl Coverage {
-    pub(super) fn measure(c: &Checked) -> Coverage {
+impl NumberCoverage {
+    pub(super) fn measure(c: &Checked) -> NumberCoverage {
         let counted = verify::counted(&c.lesson);
-        Coverage { claimed: counted.claimed.len(), unclaimed: counted.left }
+        NumberCoverage { claimed: counted.claimed.len(), unclaimed: counted.left }
     }
 
     /// Number of all.

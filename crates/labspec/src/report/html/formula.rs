@@ -179,17 +179,17 @@ fn read_command<'t>(tex: &'t str, letters: &mut String) -> Option<&'t str> {
     }
     if FUNCTIONS.contains(&name) {
         let next = after.trim_start_matches(' ');
-        let apart = next.starts_with(|c: char| c.is_alphanumeric() || c == '\\');
+        let needs_separator = next.starts_with(|c: char| c.is_alphanumeric() || c == '\\');
         letters.push_str(name);
-        letters.push_str(if apart { " " } else { "" });
+        letters.push_str(if needs_separator { " " } else { "" });
         return Some(next);
     }
     // The character after the backslash belongs to a one-character command: `\,`, `\%`.
     let sign = after.chars().next().filter(|_| length == 0).map_or(0, char::len_utf8);
     letters.push_str(tex.get(..1 + length + sign)?);
     // A space after a relation is displayed; after other names it ends the name.
-    let apart = RELATIONS.contains(&name) && after.starts_with(' ');
-    letters.push_str(if apart { "{}" } else { "" });
+    let needs_separator = RELATIONS.contains(&name) && after.starts_with(' ');
+    letters.push_str(if needs_separator { "{}" } else { "" });
     after.get(sign..)
 }
 

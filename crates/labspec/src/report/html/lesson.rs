@@ -1,7 +1,7 @@
 //! One lesson of the page: its summary, findings, questions and labs.
 
 use super::context::LessonContext;
-use super::coverage::Coverage;
+use super::coverage::NumberCoverage;
 use super::evidence::evidence;
 use super::material::Material;
 use super::question::{self, QuestionPage};
@@ -21,7 +21,7 @@ use std::fmt::Write;
 const LISTED: usize = 200;
 
 /// The data of a lesson's page.
-pub(super) struct LessonPage<'a> {
+pub(super) struct LessonReport<'a> {
     /// The anchor for links to it.
     pub(super) anchor: String,
     /// Its file.
@@ -29,19 +29,19 @@ pub(super) struct LessonPage<'a> {
     pub(super) summary: String,
     pub(super) findings: Vec<&'a Finding>,
     pub(super) allowed: Vec<&'a SuppressedFinding>,
-    pub(super) coverage: Coverage,
+    pub(super) coverage: NumberCoverage,
     pub(super) questions: Vec<QuestionPage<'a>>,
     checked: &'a Checked,
     context: LessonContext<'a>,
 }
 
-impl<'a> LessonPage<'a> {
+impl<'a> LessonReport<'a> {
     pub(super) fn new(
         number: usize,
         checked: &'a Checked,
         page: &Material<'a>,
         names: &'a Names,
-    ) -> LessonPage<'a> {
+    ) -> LessonReport<'a> {
         let lesson = &checked.lesson;
         let path = lesson.file.path();
         let mut ledger = Ledger::default();
@@ -61,12 +61,12 @@ impl<'a> LessonPage<'a> {
         };
         let anchor = format!("lesson-{number}");
         let questions = asked(checked, &context, &anchor);
-        LessonPage {
+        LessonReport {
             name: names.short(path),
             summary: ledger.summary(),
             findings: page.findings.iter().filter(|f| f.path == *path).collect(),
             allowed: page.allowed.iter().filter(|a| a.finding.path == *path).collect(),
-            coverage: Coverage::measure(checked),
+            coverage: NumberCoverage::measure(checked),
             anchor,
             questions,
             checked,
@@ -100,8 +100,8 @@ fn asked<'a>(checked: &'a Checked, context: &LessonContext<'a>, anchor: &str) ->
 }
 
 /// Writes the section of a lesson.
-pub(super) fn write(part: &LessonPage<'_>) -> String {
-    let LessonPage { anchor, name, summary, findings, allowed, questions, context, .. } = part;
+pub(super) fn write(part: &LessonReport<'_>) -> String {
+    let LessonReport { anchor, name, summary, findings, allowed, questions, context, .. } = part;
     let mut out = format!("<section class=\"lesson\" id=\"{anchor}\">\n<h2>{}</h2>\n", text(name));
     if let Some(title) = context.lesson.file.text().lines().find_map(|line| line.strip_prefix("# ")) {
         let _ = writeln!(out, "<p class=\"title\">{}</p>", text(title));
@@ -168,9 +168,9 @@ pub(super) fn found(findings: &[&Finding], sources: &[&SourceFile], names: &Name
 }
 
 /// Writes the labs: the results of their runs, and their claims.
-fn labs(part: &LessonPage<'_>) -> String {
-    let LessonPage { checked, context, questions, .. } = part;
-    let of = |verify: Option<&Verify>| {
+fn labs(part: &LessonReport<'_>) -> String {
+    let LessonReport { checked, context, questions, .. } = part;
+    let claims_of = |verify: Option<&Verify>| {
         verify.and_then(|v| checked.claims.iter().find(|claim| claim.span == v.span))
     };
     let mut out = String::new();
@@ -188,7 +188,7 @@ fn labs(part: &LessonPage<'_>) -> String {
         if let Some(e) = entry.filter(|e| !e.remark.is_empty()) {
             let _ = writeln!(out, "<p class=\"why\">{}</p>", text(&context.names.shorten(&e.remark)));
         }
-        if let Some(claim) = of(verify) {
+        if let Some(claim) = claims_of(verify) {
             out.push_str(&evidence(claim, verify, context));
         }
         out.push_str("</article>\n");
@@ -212,7 +212,7 @@ fn labs(part: &LessonPage<'_>) -> String {
 }
 
 /// Writes the numbers with units that no claim covers.
-fn unclaimed(part: &LessonPage<'_>) -> String {
+fn unclaimed(part: &LessonReport<'_>) -> String {
     let all = &part.coverage.unclaimed;
     if all.is_empty() {
         return String::new();

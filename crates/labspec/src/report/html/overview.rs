@@ -1,6 +1,6 @@
 //! The top of the page: the summary, and how much of the course is claimed.
 
-use super::lesson::LessonPage;
+use super::lesson::LessonReport;
 use super::question::QuestionPage;
 use super::text::{plain, text};
 use super::verdict::{bar, verdict};
@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// Writes the overview of the course.
-pub(super) fn write(parts: &[LessonPage<'_>], summary: &str) -> String {
+pub(super) fn write(parts: &[LessonReport<'_>], summary: &str) -> String {
     let mut out = format!("<header>\n<h1>{}, checked</h1>\n", counted(parts.len(), "lesson"));
     let _ = writeln!(out, "<p class=\"summary\">{}</p>\n</header>", plain(summary));
     out.push_str("<section id=\"coverage\">\n<h2>How much is claimed</h2>\n");
@@ -24,7 +24,7 @@ pub(super) fn write(parts: &[LessonPage<'_>], summary: &str) -> String {
 }
 
 /// Questions that have a keyed answer.
-fn keyed<'p, 'a>(part: &'p LessonPage<'a>) -> impl Iterator<Item = &'p QuestionPage<'a>> {
+fn keyed<'p, 'a>(part: &'p LessonReport<'a>) -> impl Iterator<Item = &'p QuestionPage<'a>> {
     part.questions.iter().filter(|q| q.word != "open")
 }
 
@@ -33,8 +33,8 @@ fn is_claimed(asked: &&QuestionPage<'_>) -> bool {
 }
 
 /// Writes the counts of numbers and questions of the course.
-fn whole(parts: &[LessonPage<'_>]) -> String {
-    let sum = |of: &dyn Fn(&LessonPage<'_>) -> usize| parts.iter().map(of).sum::<usize>();
+fn whole(parts: &[LessonReport<'_>]) -> String {
+    let sum = |count: &dyn Fn(&LessonReport<'_>) -> usize| parts.iter().map(count).sum::<usize>();
     let (questions, checked) = (sum(&|p| keyed(p).count()), sum(&|p| keyed(p).filter(is_claimed).count()));
     let (numbers, claimed) = (sum(&|p| p.coverage.all()), sum(&|p| p.coverage.claimed));
     let mut out = String::from("<dl class=\"whole\">\n");
@@ -49,7 +49,7 @@ fn whole(parts: &[LessonPage<'_>]) -> String {
 }
 
 /// Writes a table with a row for each lesson.
-fn table(parts: &[LessonPage<'_>]) -> String {
+fn table(parts: &[LessonReport<'_>]) -> String {
     let mut out = String::from("<div class=\"box\"><table>\n<thead><tr>");
     for head in ["lesson", "answers", "numbers with units", "findings"] {
         let _ = write!(out, "<th scope=\"col\">{head}</th>");
@@ -88,8 +88,8 @@ fn called(state: State, word: &str) -> &str {
 }
 
 /// Writes the questions by verdict, and those with undecided options.
-fn verdicts(parts: &[LessonPage<'_>]) -> String {
-    let mut by_word: BTreeMap<(State, &str), Vec<(&LessonPage<'_>, &QuestionPage<'_>)>> = BTreeMap::new();
+fn verdicts(parts: &[LessonReport<'_>]) -> String {
+    let mut by_word: BTreeMap<(State, &str), Vec<(&LessonReport<'_>, &QuestionPage<'_>)>> = BTreeMap::new();
     let mut undecided = Vec::new();
     let mut options = 0;
     for part in parts {
@@ -120,7 +120,7 @@ fn verdicts(parts: &[LessonPage<'_>]) -> String {
     out
 }
 
-fn list(title: &str, all: &[(&LessonPage<'_>, &QuestionPage<'_>)], open: bool) -> String {
+fn list(title: &str, all: &[(&LessonReport<'_>, &QuestionPage<'_>)], open: bool) -> String {
     let open = if open { " open=\"open\"" } else { "" };
     let mut out = format!("<details{open}><summary>{title}</summary>\n<ul>\n");
     for (part, q) in all {

@@ -1,6 +1,6 @@
 //! The page: its head, the overview, the lessons, and the findings in other files.
 
-use super::lesson::{self, LessonPage};
+use super::lesson::{self, LessonReport};
 use super::material::Material;
 use super::overview;
 use super::text::{Names, text};
@@ -15,11 +15,11 @@ const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'";
 /// The page. The same material gives the same bytes.
 pub fn page(material: &Material<'_>) -> String {
     let names = Names::shorten_paths(material.lessons.iter().map(|c| &**c.lesson.file.path()));
-    let parts: Vec<LessonPage<'_>> = material
+    let parts: Vec<LessonReport<'_>> = material
         .lessons
         .iter()
         .enumerate()
-        .map(|(i, c)| LessonPage::new(i + 1, c, material, &names))
+        .map(|(i, c)| LessonReport::new(i + 1, c, material, &names))
         .collect();
     let mut out = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\

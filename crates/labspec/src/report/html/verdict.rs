@@ -11,7 +11,7 @@ fn mark(state: State) -> (&'static str, &'static str) {
         State::False => ("bad", "✗"),
         State::Unchecked => ("open", "?"),
         State::Known => ("open", "≈"),
-        State::LeftOut => ("none", "–"),
+        State::Skipped => ("none", "–"),
         State::NotClaimed => ("none", "○"),
     }
 }

@@ -30,7 +30,7 @@ pub struct Completion {
 
 /// The names that a completion needs and only the models provide.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Asked<'a> {
+pub enum RequestedNames<'a> {
     /// The names of all models.
     Models,
     /// The sites of the model with this name.
@@ -45,7 +45,11 @@ pub enum Asked<'a> {
 ///
 /// `names` provides the names: `&|asked| models.names(asked)` with [`crate::bind::scene::Models`], or `&|_| Vec::new()` if
 /// no models are available.
-pub fn completions(text: &str, offset: usize, names: &dyn Fn(Asked<'_>) -> Vec<String>) -> Vec<Completion> {
+pub fn completions(
+    text: &str,
+    offset: usize,
+    names: &dyn Fn(RequestedNames<'_>) -> Vec<String>,
+) -> Vec<Completion> {
     completions_of(None, text, offset, names)
 }
 
@@ -54,7 +58,7 @@ pub(super) fn completions_of(
     whole: Option<&'static Object>,
     text: &str,
     offset: usize,
-    names: &dyn Fn(Asked<'_>) -> Vec<String>,
+    names: &dyn Fn(RequestedNames<'_>) -> Vec<String>,
 ) -> Vec<Completion> {
     let mut offset = offset.min(text.len());
     while !text.is_char_boundary(offset) {
@@ -74,7 +78,7 @@ pub(super) fn completions_of(
             };
             match inside(&holder, step) {
                 Some(Type::Name(named)) => complete_key(key, ask(named, scope, names), spot),
-                of => values(key, of, scope, spot),
+                ty => values(key, ty, scope, spot),
             }
         }
     };
@@ -110,7 +114,7 @@ fn holder(whole: Option<&'static Object>, found: &JsonScan, index: usize) -> Hol
             None => whole.map_or_else(|| root(scope), |object| Holder::Keys(allowed(&[object], scope))),
             Some((_, ScanStep::Item(_))) if outer_list && !scope.list => root(scope),
             Some((_, step)) => match inside(&at, step) {
-                Some(of) => of_type(of, scope),
+                Some(ty) => of_type(ty, scope),
                 None => Holder::Unknown,
             },
         };
@@ -135,25 +139,25 @@ fn root(scope: &JsonScope) -> Holder {
 /// The type that is expected at this key or item of an object or a list.
 fn inside(holder: &Holder, step: &ScanStep) -> Option<Type> {
     match (holder, step) {
-        (Holder::Keys(keys), ScanStep::Key(name)) => keys.iter().find(|k| k.name == name).map(|k| k.of),
-        (Holder::Of(Type::Map(map)), ScanStep::Key(_)) => Some(map.of),
+        (Holder::Keys(keys), ScanStep::Key(name)) => keys.iter().find(|k| k.name == name).map(|k| k.ty),
+        (Holder::Of(Type::Map(map)), ScanStep::Key(_)) => Some(map.ty),
         (Holder::Of(Type::Switches(_)), ScanStep::Key(_)) => Some(Type::Flag),
         (Holder::Of(Type::List(item)), ScanStep::Item(_)) => Some(**item),
-        (Holder::Of(Type::Pair(parts)), ScanStep::Item(i)) => parts.get(*i).map(|p| p.of),
+        (Holder::Of(Type::Pair(parts)), ScanStep::Item(i)) => parts.get(*i).map(|p| p.ty),
         _ => None,
     }
 }
 
 /// The declared type of an object or a list that is the value of this type.
-fn of_type(of: Type, scope: &JsonScope) -> Holder {
-    match (of, scope.list) {
+fn of_type(ty: Type, scope: &JsonScope) -> Holder {
+    match (ty, scope.list) {
         (Type::Either(a, b), _) => match of_type(*a, scope) {
             Holder::Unknown => of_type(*b, scope),
             found => found,
         },
         (Type::Object(object), false) => Holder::Keys(allowed(&[object], scope)),
         (Type::OneOf(family), false) => Holder::Keys(allowed(&meant(family, scope), scope)),
-        (Type::Map(_) | Type::Switches(_), false) | (Type::List(_) | Type::Pair(_), true) => Holder::Of(of),
+        (Type::Map(_) | Type::Switches(_), false) | (Type::List(_) | Type::Pair(_), true) => Holder::Of(ty),
         _ => Holder::Unknown,
     }
 }
@@ -235,7 +239,7 @@ fn keys(holder: &Holder, scope: &JsonScope, spot: &CursorSpot, colon: bool) -> V
 /// The words that are accepted as a value. `key` is the key of the value.
 fn values(
     key: Option<&'static Key>,
-    of: Option<Type>,
+    ty: Option<Type>,
     scope: &JsonScope,
     spot: &CursorSpot,
 ) -> Vec<Completion> {
@@ -249,7 +253,7 @@ fn values(
         default: key.and_then(default).map(|value| value.to_string()),
         required: false,
     };
-    match of {
+    match ty {
         Some(Type::Words(words)) => {
             let takes = || words.iter().map(|w| format!("\"{}\"", w.text)).collect::<Vec<_>>().join(", ");
             let free = |w: &&Word| !scope.list || !scope.texts.iter().any(|t| t == w.text);
@@ -268,7 +272,7 @@ fn values(
 }
 
 /// The names that are accepted as a value. Without a model, there are none.
-fn ask(named: Named, scope: &JsonScope, names: &dyn Fn(Asked<'_>) -> Vec<String>) -> Vec<String> {
+fn ask(named: Named, scope: &JsonScope, names: &dyn Fn(RequestedNames<'_>) -> Vec<String>) -> Vec<String> {
     let text = |key: &str| {
         let (_, raw) = scope.keys.iter().find(|(name, _)| name == key)?;
         // The text between the quotes; an invalid escape sequence is kept unchanged.
@@ -276,9 +280,9 @@ fn ask(named: Named, scope: &JsonScope, names: &dyn Fn(Asked<'_>) -> Vec<String>
         Some(serde_json::from_str::<String>(&format!("\"{raw}\"")).unwrap_or_else(|_| raw.clone()))
     };
     match (named, text("model"), text("xml")) {
-        (Named::Model, ..) => names(Asked::Models),
-        (Named::Site, Some(model), _) => names(Asked::SitesOf(&model)),
-        (Named::Site, None, Some(xml)) => names(Asked::SitesIn(&xml)),
+        (Named::Model, ..) => names(RequestedNames::Models),
+        (Named::Site, Some(model), _) => names(RequestedNames::SitesOf(&model)),
+        (Named::Site, None, Some(xml)) => names(RequestedNames::SitesIn(&xml)),
         (Named::Site, None, None) => Vec::new(),
     }
 }

@@ -8,7 +8,7 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 /// No models are available.
-const NONE: fn(Asked<'_>) -> Vec<String> = |_| Vec::new();
+const NONE: fn(RequestedNames<'_>) -> Vec<String> = |_| Vec::new();
 
 /// The completions at the marker `¦`, which is removed from the text.
 fn at(marked: &str) -> Vec<&'static str> {
@@ -112,10 +112,10 @@ fn a_value_takes_its_words() {
 /// The models provide their own names and the names of their sites. The sites are those of the model of the enclosing lab.
 #[test]
 fn names_come_from_the_models() {
-    let names = |asked: Asked<'_>| match asked {
-        Asked::Models => ["fall", "swing", "spin"].map(String::from).to_vec(),
-        Asked::SitesOf("swing") => ["tip", "top", "a\"b"].map(String::from).to_vec(),
-        Asked::SitesIn("<mujoco model=\"m\"/>") => vec!["inside".into()],
+    let names = |asked: RequestedNames<'_>| match asked {
+        RequestedNames::Models => ["fall", "swing", "spin"].map(String::from).to_vec(),
+        RequestedNames::SitesOf("swing") => ["tip", "top", "a\"b"].map(String::from).to_vec(),
+        RequestedNames::SitesIn("<mujoco model=\"m\"/>") => vec!["inside".into()],
         other => panic!("{other:?}"),
     };
     let offered = |marked: &str| {

@@ -2,7 +2,7 @@
 
 use super::plot::DIGITS;
 use super::{Absent, Family, Key, Object, PairHalf, Together, Type, Word, key};
-use crate::spec::Form;
+use crate::spec::CodeForm;
 use labspec_finding::docs;
 
 static TYPES: [Word; 3] = [
@@ -32,11 +32,11 @@ const LABEL: Key = key(
 .must("the student reads the label, and runs refer to the control by it");
 
 const SET: Key =
-    key("set", Type::Code(Form::Target), "the field that gets the value", r#""model.opt.gravity[2]""#);
+    key("set", Type::Code(CodeForm::Target), "the field that gets the value", r#""model.opt.gravity[2]""#);
 
 const APPLY: Key = key(
     "apply",
-    Type::Code(Form::Statements),
+    Type::Code(CodeForm::Statements),
     "statements that see the value as `value`",
     r#""model.body_mass[1] = 1 + 0.05 * Math.abs(value); const q = data.qpos.slice(); mj.mj_setConst(model, data); data.qpos.set(q)""#,
 );
@@ -95,8 +95,8 @@ pub static SLIDER: Object = Object {
 };
 
 static CHOICE_PARTS: [PairHalf; 2] = [
-    PairHalf { what: "the displayed text", of: Type::Text },
-    PairHalf { what: "the value", of: Type::Scalar },
+    PairHalf { what: "the displayed text", ty: Type::Text },
+    PairHalf { what: "the value", ty: Type::Scalar },
 ];
 static CHOICE: Type = Type::Pair(&CHOICE_PARTS);
 
@@ -141,7 +141,7 @@ pub static BUTTON: Object = Object {
         Key { example: r#""Push""#, doc: docs("the text on the button; runs press it by this name"), ..LABEL },
         key(
             "run",
-            Type::Code(Form::Statements),
+            Type::Code(CodeForm::Statements),
             "what a press does: it can set the state (a velocity is a kick), forces, fields of the model, or names of `ctx` that `controller` reads",
             r#""data.joint('ball').qvel[0] = 1""#,
         )

@@ -1,12 +1,12 @@
 //! The type of a key in words, for the reference page and for editors.
 
 use super::{Absent, Key, Limits, Type, texts};
-use crate::spec::Form;
+use crate::spec::CodeForm;
 use serde_json::{Map, Value};
 
 /// The type of a key, with its unit and its limits: `number above 0, in s`.
 pub(super) fn takes(key: &Key) -> String {
-    let mut text = kind(&key.of);
+    let mut text = kind(&key.ty);
     text.push_str(&limits(&key.limits));
     if !key.unit.is_empty() {
         text.push_str(&format!(", in {}", key.unit));
@@ -19,13 +19,13 @@ pub(super) fn takes(key: &Key) -> String {
     text
 }
 
-fn kind(of: &Type) -> String {
-    match of {
+fn kind(ty: &Type) -> String {
+    match ty {
         Type::Text | Type::Name(_) => "text".into(),
         Type::Html => "text, can contain HTML".into(),
-        Type::Code(Form::Expression) => "code: an expression".into(),
-        Type::Code(Form::Statements) => "code: statements".into(),
-        Type::Code(Form::Target) => "code: an assignable field".into(),
+        Type::Code(CodeForm::Expression) => "code: an expression".into(),
+        Type::Code(CodeForm::Statements) => "code: statements".into(),
+        Type::Code(CodeForm::Target) => "code: an assignable field".into(),
         Type::Number => "number".into(),
         Type::Whole => "integer".into(),
         Type::Flag => "true or false".into(),
@@ -37,7 +37,7 @@ fn kind(of: &Type) -> String {
         Type::List(item) => format!("list of {}", plural(item)),
         Type::Numbers(n) => format!("list of {n} numbers"),
         Type::Pair([first, second]) => format!("[{}, {}]", first.what, second.what),
-        Type::Map(map) => format!("object: {} → {}", map.names, kind(&map.of)),
+        Type::Map(map) => format!("object: {} → {}", map.names, kind(&map.ty)),
         Type::Switches(_) => "object: word → true or false".into(),
         Type::Object(object) => object.what.into(),
         Type::OneOf(family) => family.what.into(),
@@ -45,16 +45,16 @@ fn kind(of: &Type) -> String {
     }
 }
 
-fn plural(of: &Type) -> String {
-    match of {
+fn plural(ty: &Type) -> String {
+    match ty {
         Type::Text | Type::Name(_) => "texts".into(),
         Type::Html => "texts, can contain HTML".into(),
-        Type::Code(Form::Expression) => "expressions".into(),
+        Type::Code(CodeForm::Expression) => "expressions".into(),
         Type::Number => "numbers".into(),
         Type::Object(object) => format!("{} objects", object.name),
         Type::OneOf(family) => format!("{} objects", family.name),
-        Type::Pair(_) => format!("pairs {}", kind(of)),
-        Type::Words(_) => format!("words: {}", kind(of)),
+        Type::Pair(_) => format!("pairs {}", kind(ty)),
+        Type::Words(_) => format!("words: {}", kind(ty)),
         other => kind(other),
     }
 }
@@ -77,7 +77,7 @@ pub(super) fn default(key: &Key) -> Option<Value> {
         Absent::Text(text) => text.into(),
         Absent::False => false.into(),
         Absent::Numbers(all) => all.iter().map(|x| number(*x)).collect(),
-        Absent::Empty if matches!(key.of, Type::List(_)) => Value::Array(Vec::new()),
+        Absent::Empty if matches!(key.ty, Type::List(_)) => Value::Array(Vec::new()),
         Absent::Empty => Map::new().into(),
     })
 }

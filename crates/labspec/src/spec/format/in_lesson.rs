@@ -1,7 +1,7 @@
 //! Completions in a lesson, from the JSON of its blocks.
 
 use super::complete::completions_of;
-use super::{Asked, Completion, VERIFY, completions};
+use super::{Completion, RequestedNames, VERIFY, completions};
 use crate::markdown::{self, Block, BlockKind};
 use crate::source::SourceFile;
 use crate::spec::{FileKind, comment, kind_of};
@@ -13,7 +13,7 @@ use std::path::Path;
 pub fn completions_in(
     file: &SourceFile,
     offset: usize,
-    names: &dyn Fn(Asked<'_>) -> Vec<String>,
+    names: &dyn Fn(RequestedNames<'_>) -> Vec<String>,
 ) -> Vec<Completion> {
     if kind_of(Path::new(&**file.path())) == FileKind::Json {
         return completions(file.text(), offset, names);

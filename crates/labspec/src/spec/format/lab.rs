@@ -2,7 +2,7 @@
 
 use super::lint::lint_key;
 use super::{Absent, CONTROL, Key, Named, Object, PLOT, READOUT, Together, Type, VERIFY, Word, key};
-use crate::spec::Form;
+use crate::spec::CodeForm;
 use labspec_finding::docs;
 
 /// What can be drawn over the scene.
@@ -133,13 +133,13 @@ pub static LAB: Object = Object {
         .or(Absent::Said("the lab never pauses")),
         key(
             "setup",
-            Type::Code(Form::Statements),
+            Type::Code(CodeForm::Statements),
             "runs after loading and after every reset, after the values of the controls are applied",
             r#""data.joint('ball').qvel[2] = 1""#,
         ),
         key(
             "controller",
-            Type::Code(Form::Statements),
+            Type::Code(CodeForm::Statements),
             "runs before every step",
             r#""data.body('ball').xfrc_applied[0] = 0.1""#,
         ),

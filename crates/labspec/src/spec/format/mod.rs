@@ -21,7 +21,7 @@ mod schema;
 mod tests;
 mod verify;
 
-pub use complete::{Asked, Completion, completions};
+pub use complete::{Completion, RequestedNames, completions};
 pub use control::{BUTTON, CONTROL, SELECT, SLIDER};
 pub use in_lesson::completions_in;
 pub use lab::{CAMERA, EVENTS, LAB, OVERLAYS};
@@ -34,7 +34,7 @@ pub use quiz::{
 pub use schema::{Root, schema};
 pub use verify::{CLOSED_FORM, COLUMN, FIND, RUN, RUN_LENGTH, SPAN, VERIFY};
 
-use super::Form;
+use super::CodeForm;
 use labspec_finding::docs;
 
 /// An object of the format.
@@ -94,7 +94,7 @@ pub struct Key {
     /// Its name.
     pub name: &'static str,
     /// The type of its value.
-    pub of: Type,
+    pub ty: Type,
     /// The unit of its number; empty if it has none.
     pub unit: &'static str,
     /// Whether it is required.
@@ -123,7 +123,7 @@ pub enum Type {
     /// Text that can contain HTML.
     Html,
     /// Code in the language of the lab.
-    Code(Form),
+    Code(CodeForm),
     /// A number.
     Number,
     /// An integer.
@@ -176,7 +176,7 @@ pub struct PairHalf {
     /// Its meaning: `the label of a button`.
     pub what: &'static str,
     /// Its type.
-    pub of: Type,
+    pub ty: Type,
 }
 
 /// An object with free names.
@@ -185,7 +185,7 @@ pub struct Map {
     /// What its keys are: `the label of a trace`.
     pub names: &'static str,
     /// The type of its values.
-    pub of: Type,
+    pub ty: Type,
 }
 
 /// Whether a key is required.
@@ -242,13 +242,13 @@ impl Limits {
 const FIRST: &str = "0.1";
 
 /// An optional key.
-const fn key(name: &'static str, of: Type, doc: &'static str, example: &'static str) -> Key {
+const fn key(name: &'static str, ty: Type, doc: &'static str, example: &'static str) -> Key {
     Key {
         name,
-        of,
+        ty,
         unit: "",
         need: Need::Optional,
-        absent: match of {
+        absent: match ty {
             Type::Flag => Absent::False,
             _ => Absent::Nothing,
         },

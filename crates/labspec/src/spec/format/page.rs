@@ -65,9 +65,9 @@ fn section(text: &mut String, object: &Object) {
             key.name,
             cell(&match object.tag.filter(|(tag, _)| *tag == key.name) {
                 Some((_, word)) => format!("\"{word}\""),
-                None => takes(key) + &link(&key.of),
+                None => takes(key) + &link(&key.ty),
             }),
-            cell(&left_out(key)),
+            cell(&describe_default(key)),
             cell(key.doc),
             cell(key.example)
         );
@@ -75,12 +75,12 @@ fn section(text: &mut String, object: &Object) {
 }
 
 /// A link to the keys of the objects that this type accepts.
-fn link(of: &Type) -> String {
-    let heading = match of {
+fn link(ty: &Type) -> String {
+    let heading = match ty {
         Type::Object(object) => heading(object),
         Type::OneOf(family) => capital(family.name),
         Type::List(item) => return link(item),
-        Type::Map(map) => return link(&map.of),
+        Type::Map(map) => return link(&map.ty),
         Type::Either(a, b) => return link(a) + &link(b),
         _ => return String::new(),
     };
@@ -93,7 +93,7 @@ fn heading(object: &Object) -> String {
 }
 
 /// What applies if a key is absent.
-fn left_out(key: &Key) -> String {
+fn describe_default(key: &Key) -> String {
     if key.required() {
         return "an error".into();
     }

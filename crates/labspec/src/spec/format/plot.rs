@@ -1,7 +1,7 @@
 //! Plots, their traces and reference lines, and readouts.
 
 use super::{Absent, Key, Object, Type, key};
-use crate::spec::Form;
+use crate::spec::CodeForm;
 use labspec_finding::docs;
 
 /// The maximum number of decimals: a double has 17 significant digits.
@@ -73,7 +73,7 @@ pub static TRACE: Object = Object {
         .must("the legend and the written table use it as the name of the curve"),
         key(
             "expr",
-            Type::Code(Form::Expression),
+            Type::Code(CodeForm::Expression),
             "what the curve shows: a number, evaluated after every step",
             r#""data.joint('ball').qpos[2]""#,
         )
@@ -110,7 +110,7 @@ pub static READOUT: Object = Object {
             .must("a number without a name means nothing to a reader"),
         key(
             "expr",
-            Type::Code(Form::Expression),
+            Type::Code(CodeForm::Expression),
             "the displayed value: a number, a text, true or false",
             r#""data.time""#,
         )

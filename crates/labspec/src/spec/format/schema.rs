@@ -21,13 +21,13 @@ pub enum Root {
 /// A keyword of a schema with its value.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
-enum Keyword {
+enum SchemaKeyword {
     #[serde(rename = "$schema")]
     Dialect(&'static str),
     #[serde(rename = "$ref")]
     Reference(String),
     #[serde(rename = "$defs")]
-    Definitions(Named),
+    Definitions(NamedSchemas),
     Title(&'static str),
     Description(String),
     Type(&'static str),
@@ -35,7 +35,7 @@ enum Keyword {
     Types([&'static str; 3]),
     Const(&'static str),
     Enum(Vec<&'static str>),
-    Properties(Named),
+    Properties(NamedSchemas),
     /// Whether other properties are allowed.
     #[serde(rename = "additionalProperties")]
     Open(bool),
@@ -61,23 +61,23 @@ enum Keyword {
 
 /// A schema: its keywords, in the order in which they are written.
 #[derive(Default)]
-struct SchemaNode(Vec<Keyword>);
+struct SchemaNode(Vec<SchemaKeyword>);
 
-impl From<Keyword> for SchemaNode {
-    fn from(keyword: Keyword) -> SchemaNode {
+impl From<SchemaKeyword> for SchemaNode {
+    fn from(keyword: SchemaKeyword) -> SchemaNode {
         SchemaNode(vec![keyword])
     }
 }
 
 impl SchemaNode {
-    fn and(mut self, more: impl IntoIterator<Item = Keyword>) -> SchemaNode {
+    fn and(mut self, more: impl IntoIterator<Item = SchemaKeyword>) -> SchemaNode {
         self.0.extend(more);
         self
     }
 }
 
 /// Schemas by name, in a fixed order.
-struct Named(Vec<(&'static str, SchemaNode)>);
+struct NamedSchemas(Vec<(&'static str, SchemaNode)>);
 
 impl Serialize for SchemaNode {
     fn serialize<S: Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
@@ -88,7 +88,7 @@ impl Serialize for SchemaNode {
     }
 }
 
-impl Serialize for Named {
+impl Serialize for NamedSchemas {
     fn serialize<S: Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
         out.collect_map(self.0.iter().map(|(name, schema)| (name, schema)))
     }
@@ -98,7 +98,7 @@ impl Serialize for Named {
 /// at once is found only by the check.
 pub fn schema(root: Root) -> Value {
     let item = || when(required(&["questions"]), reference(QUIZ.name), reference(LAB.name));
-    let list = || SchemaNode::from(Keyword::Items(item()));
+    let list = || SchemaNode::from(SchemaKeyword::Items(item()));
     let (title, description, body) = match root {
         Root::Lab => ("Lab", LAB.doc, reference(LAB.name)),
         Root::Quiz => ("Quiz", QUIZ.doc, reference(QUIZ.name)),
@@ -116,11 +116,11 @@ pub fn schema(root: Root) -> Value {
     let objects = OBJECTS.iter().filter(|o| used.contains(&o.name));
     let definitions = families.map(|f| (f.name, one_of(f))).chain(objects.map(|o| (o.name, definition(o))));
     let head = [
-        Keyword::Dialect("https://json-schema.org/draft/2020-12/schema"),
-        Keyword::Title(title),
-        Keyword::Description(description.into()),
+        SchemaKeyword::Dialect("https://json-schema.org/draft/2020-12/schema"),
+        SchemaKeyword::Title(title),
+        SchemaKeyword::Description(description.into()),
     ];
-    let definitions = Keyword::Definitions(Named(definitions.collect()));
+    let definitions = SchemaKeyword::Definitions(NamedSchemas(definitions.collect()));
     to_value(&SchemaNode(head.into()).and(body.0).and([definitions]))
 }
 
@@ -130,94 +130,97 @@ fn reach(from: &'static Object, used: &mut Vec<&'static str>) {
         return;
     }
     used.push(from.name);
-    from.keys.iter().for_each(|k| reach_type(&k.of, used));
+    from.keys.iter().for_each(|k| reach_type(&k.ty, used));
 }
 
-fn reach_type(of: &Type, used: &mut Vec<&'static str>) {
-    match of {
+fn reach_type(ty: &Type, used: &mut Vec<&'static str>) {
+    match ty {
         Type::Object(object) => reach(object, used),
         Type::OneOf(family) => family.objects.iter().for_each(|o| reach(o, used)),
         Type::List(item) => reach_type(item, used),
-        Type::Map(map) => reach_type(&map.of, used),
+        Type::Map(map) => reach_type(&map.ty, used),
         Type::Either(a, b) => [a, b].into_iter().for_each(|t| reach_type(t, used)),
         _ => {}
     }
 }
 
-fn definition(of: &Object) -> SchemaNode {
-    let required: Vec<&str> = of.keys.iter().filter(|k| k.required()).map(|k| k.name).collect();
-    let together: Vec<SchemaNode> = of.together.iter().filter_map(rule).collect();
-    SchemaNode::from(Keyword::Description(of.doc.into()))
-        .and(closed(of.keys.iter().map(|k| (k.name, property(of, k)))).0)
-        .and((!required.is_empty()).then_some(Keyword::Required(required)))
-        .and((!together.is_empty()).then_some(Keyword::AllOf(together)))
+fn definition(object: &Object) -> SchemaNode {
+    let required: Vec<&str> = object.keys.iter().filter(|k| k.required()).map(|k| k.name).collect();
+    let together: Vec<SchemaNode> = object.together.iter().filter_map(rule).collect();
+    SchemaNode::from(SchemaKeyword::Description(object.doc.into()))
+        .and(closed(object.keys.iter().map(|k| (k.name, property(object, k)))).0)
+        .and((!required.is_empty()).then_some(SchemaKeyword::Required(required)))
+        .and((!together.is_empty()).then_some(SchemaKeyword::AllOf(together)))
 }
 
 /// A rule for a combination of keys. A schema can express only errors, so the rules with warnings are left out.
 fn rule(rule: &Together) -> Option<SchemaNode> {
     let each = |names: &[&'static str]| names.iter().map(|n| required(&[n])).collect();
     Some(SchemaNode::from(match rule {
-        Together::ExactlyOne(names) => Keyword::OneOf(each(names)),
-        Together::AtLeastOne(names) => Keyword::AnyOf(each(names)),
-        Together::AtMostOne(names) => Keyword::Not(required(&names[..])),
+        Together::ExactlyOne(names) => SchemaKeyword::OneOf(each(names)),
+        Together::AtLeastOne(names) => SchemaKeyword::AnyOf(each(names)),
+        Together::AtMostOne(names) => SchemaKeyword::Not(required(&names[..])),
         Together::OneAdvised(_) | Together::FirstCounts(_) => return None,
     }))
 }
 
-fn property(of: &Object, key: &Key) -> SchemaNode {
-    let schema = match of.tag.filter(|(name, _)| *name == key.name) {
-        Some((_, word)) => SchemaNode::from(Keyword::Const(word)),
-        None => value(&key.of, &key.limits),
+fn property(object: &Object, key: &Key) -> SchemaNode {
+    let schema = match object.tag.filter(|(name, _)| *name == key.name) {
+        Some((_, word)) => SchemaNode::from(SchemaKeyword::Const(word)),
+        None => value(&key.ty, &key.limits),
     };
     let unit = if key.unit.is_empty() { String::new() } else { format!(" ({})", key.unit) };
     let example = serde_json::from_str(key.example).ok();
     schema
-        .and((key.items > 0).then_some(Keyword::MinItems(key.items)))
-        .and([Keyword::Description(format!("{}{unit}", key.doc))])
-        .and(default(key).map(Keyword::Default))
-        .and(example.map(|example| Keyword::Examples([example])))
+        .and((key.items > 0).then_some(SchemaKeyword::MinItems(key.items)))
+        .and([SchemaKeyword::Description(format!("{}{unit}", key.doc))])
+        .and(default(key).map(SchemaKeyword::Default))
+        .and(example.map(|example| SchemaKeyword::Examples([example])))
 }
 
 /// The schema of a type.
-fn value(of: &Type, limits: &Limits) -> SchemaNode {
+fn value(ty: &Type, limits: &Limits) -> SchemaNode {
     let none = Limits::default();
-    match of {
+    match ty {
         Type::Text | Type::Name(_) | Type::Html | Type::Code(_) => typed("string"),
         Type::Number => bounded("number", limits),
         Type::Whole => bounded("integer", limits),
         Type::Flag => typed("boolean"),
-        Type::Scalar => SchemaNode::from(Keyword::Types(["number", "string", "boolean"])),
-        Type::Words(words) => SchemaNode::from(Keyword::Enum(words.iter().map(|w| w.text).collect())),
-        Type::List(item) => typed("array").and([Keyword::Items(value(item, limits))]),
-        Type::Numbers(n) => array_of(*n, Keyword::Items(typed("number"))),
+        Type::Scalar => SchemaNode::from(SchemaKeyword::Types(["number", "string", "boolean"])),
+        Type::Words(words) => SchemaNode::from(SchemaKeyword::Enum(words.iter().map(|w| w.text).collect())),
+        Type::List(item) => typed("array").and([SchemaKeyword::Items(value(item, limits))]),
+        Type::Numbers(n) => array_of(*n, SchemaKeyword::Items(typed("number"))),
         Type::Pair(parts) => {
-            let part = |p: &PairHalf| value(&p.of, &none).and([Keyword::Description(p.what.into())]);
-            array_of(2, Keyword::PrefixItems(parts.iter().map(part).collect()))
+            let part = |p: &PairHalf| value(&p.ty, &none).and([SchemaKeyword::Description(p.what.into())]);
+            array_of(2, SchemaKeyword::PrefixItems(parts.iter().map(part).collect()))
         }
-        Type::Map(map) => typed("object").and([Keyword::AdditionalProperties(value(&map.of, &none))]),
-        Type::Switches(words) => {
-            closed(words.iter().map(|w| (w.text, typed("boolean").and([Keyword::Description(w.doc.into())]))))
-        }
+        Type::Map(map) => typed("object").and([SchemaKeyword::AdditionalProperties(value(&map.ty, &none))]),
+        Type::Switches(words) => closed(
+            words.iter().map(|w| (w.text, typed("boolean").and([SchemaKeyword::Description(w.doc.into())]))),
+        ),
         Type::Object(o) => reference(o.name),
         Type::OneOf(family) => reference(family.name),
-        Type::Either(a, b) => SchemaNode::from(Keyword::AnyOf(vec![value(a, limits), value(b, limits)])),
+        Type::Either(a, b) => {
+            SchemaNode::from(SchemaKeyword::AnyOf(vec![value(a, limits), value(b, limits)]))
+        }
     }
 }
 
 fn bounded(kind: &'static str, limits: &Limits) -> SchemaNode {
     typed(kind)
-        .and(limits.above.map(|x| Keyword::ExclusiveMinimum(number(x))))
-        .and(limits.least.map(|x| Keyword::Minimum(number(x))))
-        .and(limits.most.map(|x| Keyword::Maximum(number(x))))
+        .and(limits.above.map(|x| SchemaKeyword::ExclusiveMinimum(number(x))))
+        .and(limits.least.map(|x| SchemaKeyword::Minimum(number(x))))
+        .and(limits.most.map(|x| SchemaKeyword::Maximum(number(x))))
 }
 
-fn array_of(n: usize, items: Keyword) -> SchemaNode {
-    typed("array").and([items, Keyword::MinItems(n), Keyword::MaxItems(n)])
+fn array_of(n: usize, items: SchemaKeyword) -> SchemaNode {
+    typed("array").and([items, SchemaKeyword::MinItems(n), SchemaKeyword::MaxItems(n)])
 }
 
 /// An object with only these keys.
 fn closed(properties: impl Iterator<Item = (&'static str, SchemaNode)>) -> SchemaNode {
-    typed("object").and([Keyword::Properties(Named(properties.collect())), Keyword::Open(false)])
+    typed("object")
+        .and([SchemaKeyword::Properties(NamedSchemas(properties.collect())), SchemaKeyword::Open(false)])
 }
 
 /// The schema of a family: the family key selects the object. With any other value, the object is treated as the first one,
@@ -226,25 +229,27 @@ fn one_of(family: &Family) -> SchemaNode {
     let tagged = |object: &&'static Object| object.tag.map(|(key, word)| (key, word, object.name));
     let mut rest = family.objects.first().map(|o| reference(o.name)).unwrap_or_default();
     for (key, word, name) in family.objects.iter().skip(1).rev().filter_map(tagged) {
-        let properties = Named(vec![(key, SchemaNode::from(Keyword::Const(word)))]);
-        let tag = [Keyword::Properties(properties), Keyword::Required(vec![key])];
+        let properties = NamedSchemas(vec![(key, SchemaNode::from(SchemaKeyword::Const(word)))]);
+        let tag = [SchemaKeyword::Properties(properties), SchemaKeyword::Required(vec![key])];
         rest = when(SchemaNode(tag.into()), reference(name), rest);
     }
-    SchemaNode::from(Keyword::Description(family.doc.into())).and([Keyword::Type("object")]).and(rest.0)
+    SchemaNode::from(SchemaKeyword::Description(family.doc.into()))
+        .and([SchemaKeyword::Type("object")])
+        .and(rest.0)
 }
 
 fn when(condition: SchemaNode, then: SchemaNode, otherwise: SchemaNode) -> SchemaNode {
-    SchemaNode(vec![Keyword::If(condition), Keyword::Then(then), Keyword::Else(otherwise)])
+    SchemaNode(vec![SchemaKeyword::If(condition), SchemaKeyword::Then(then), SchemaKeyword::Else(otherwise)])
 }
 
 fn required(keys: &[&'static str]) -> SchemaNode {
-    SchemaNode::from(Keyword::Required(keys.to_vec()))
+    SchemaNode::from(SchemaKeyword::Required(keys.to_vec()))
 }
 
 fn reference(name: &str) -> SchemaNode {
-    SchemaNode::from(Keyword::Reference(format!("#/$defs/{name}")))
+    SchemaNode::from(SchemaKeyword::Reference(format!("#/$defs/{name}")))
 }
 
 fn typed(kind: &'static str) -> SchemaNode {
-    SchemaNode::from(Keyword::Type(kind))
+    SchemaNode::from(SchemaKeyword::Type(kind))
 }

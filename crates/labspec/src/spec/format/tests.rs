@@ -22,12 +22,12 @@ fn parse(text: &str) -> Value {
 }
 
 /// A value of a type that contains an object; `None` for types that cannot contain it.
-fn holding(of: &Type, object: &Object, value: &Value) -> Option<Value> {
-    match of {
+fn holding(ty: &Type, object: &Object, value: &Value) -> Option<Value> {
+    match ty {
         Type::Object(o) if o.name == object.name => Some(value.clone()),
         Type::OneOf(f) if f.objects.iter().any(|o| o.name == object.name) => Some(value.clone()),
         Type::List(item) => Some(json!([holding(item, object, value)?])),
-        Type::Map(map) => Some(json!({"height": holding(&map.of, object, value)?})),
+        Type::Map(map) => Some(json!({"height": holding(&map.ty, object, value)?})),
         Type::Either(a, b) => holding(a, object, value).or_else(|| holding(b, object, value)),
         _ => None,
     }
@@ -65,7 +65,7 @@ fn roots(object: &'static Object, value: &Value) -> Vec<(&'static Object, Value)
         }
         for parent in OBJECTS {
             for key in parent.keys {
-                if let Some(held) = holding(&key.of, object, &value) {
+                if let Some(held) = holding(&key.ty, object, &value) {
                     open.push((parent, with_key(parent, key.name, held)));
                 }
             }
@@ -243,12 +243,12 @@ fn every_example_runs() {
 }
 
 /// Values of other types than this one, each with the part of it that is wrong.
-fn wrong(of: &Type) -> Vec<(Value, Value)> {
+fn wrong(ty: &Type) -> Vec<(Value, Value)> {
     let whole = |all: &[Value]| all.iter().map(|v| (v.clone(), v.clone())).collect::<Vec<_>>();
-    let inside = |of: &Type, hold: &dyn Fn(Value) -> Value| {
-        wrong(of).into_iter().map(|(v, part)| (hold(v), part)).collect::<Vec<_>>()
+    let inside = |ty: &Type, hold: &dyn Fn(Value) -> Value| {
+        wrong(ty).into_iter().map(|(v, part)| (hold(v), part)).collect::<Vec<_>>()
     };
-    match of {
+    match ty {
         Type::Text | Type::Name(_) | Type::Html | Type::Code(_) => {
             whole(&[json!(707), json!(true), json!(["a"])])
         }
@@ -262,12 +262,12 @@ fn wrong(of: &Type) -> Vec<(Value, Value)> {
         Type::Pair(parts) => {
             let [first, second] = *parts;
             let mut all = whole(&[json!(707), json!(["a"])]);
-            let good = |of: &Type| if matches!(of, Type::Number) { json!(1) } else { json!("a") };
-            all.extend(inside(&first.of, &|v| json!([v, good(&second.of)])));
-            all.extend(inside(&second.of, &|v| json!([good(&first.of), v])));
+            let good = |ty: &Type| if matches!(ty, Type::Number) { json!(1) } else { json!("a") };
+            all.extend(inside(&first.ty, &|v| json!([v, good(&second.ty)])));
+            all.extend(inside(&second.ty, &|v| json!([good(&first.ty), v])));
             all
         }
-        Type::Map(map) => [whole(&[json!(707)]), inside(&map.of, &|v| json!({"height": v}))].concat(),
+        Type::Map(map) => [whole(&[json!(707)]), inside(&map.ty, &|v| json!({"height": v}))].concat(),
         Type::Switches(_) => vec![(json!(707), json!(707)), (json!({"com": 707}), json!(707))],
         Type::Object(_) | Type::OneOf(_) => whole(&[json!(707), json!(["a"])]),
         Type::Either(Type::Scalar, _) => whole(&[json!(null)]),
@@ -279,7 +279,7 @@ fn wrong(of: &Type) -> Vec<(Value, Value)> {
 fn a_wrong_type_is_found_where_it_stands() {
     let mut tried = 0;
     for (object, key) in every_key() {
-        for (value, part) in wrong(&key.of) {
+        for (value, part) in wrong(&key.ty) {
             for (root, whole) in roots(object, &with_key(object, key.name, value.clone())) {
                 let lesson = load(root, &whole);
                 // The last occurrence, because the scene precedes it.
@@ -308,7 +308,7 @@ fn a_number_beyond_its_limits_is_found() {
         let Limits { above, least, most } = key.limits;
         let wrong = [above, least.map(|x| x - 1.0), most.map(|x| x + 1.0)];
         for x in wrong.into_iter().flatten() {
-            let value = if matches!(key.of, Type::List(_)) { json!([x]) } else { describe::number(x) };
+            let value = if matches!(key.ty, Type::List(_)) { json!([x]) } else { describe::number(x) };
             for (root, whole) in roots(object, &with_key(object, key.name, value)) {
                 assert!(load(root, &whole).has_errors(), "{}.{} = {x}", object.name, key.name);
                 tried += 1;
@@ -373,7 +373,7 @@ fn declared_defaults_are_of_their_type() {
     for (object, key) in every_key() {
         let at = format!("{}.{}", object.name, key.name);
         let Some(default) = describe::default(key) else { continue };
-        let fits = match key.of {
+        let fits = match key.ty {
             Type::Number | Type::Whole => default.is_number() && object.number(key.name).is_finite(),
             Type::Text | Type::Words(_) => default.as_str() == Some(object.text(key.name)),
             Type::Flag => default == json!(false),

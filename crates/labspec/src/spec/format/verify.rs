@@ -1,54 +1,54 @@
 //! The checkable claims: runs, measures over them, and conditions that must hold.
 
 use super::{Absent, LAB, Map, Object, PairHalf, Together, Type, Word, key};
-use crate::spec::Form;
+use crate::spec::CodeForm;
 use labspec_finding::docs;
 
 /// The default length of a run, in s.
 pub const RUN_LENGTH: f64 = 2.0;
 
-static EXPRESSION: Type = Type::Code(Form::Expression);
+static EXPRESSION: Type = Type::Code(CodeForm::Expression);
 static TEXT: Type = Type::Text;
 static INLINE: Type = Type::Object(&LAB);
 static EXACT: Type = Type::Object(&CLOSED_FORM);
 
-static RUNS: Map = Map { names: "the name of a run", of: Type::Object(&RUN) };
-static MEASURES: Map = Map { names: "the name of a measure", of: Type::Code(Form::Expression) };
-static FORMS: Map = Map { names: "the label of a trace", of: Type::Either(&EXPRESSION, &EXACT) };
+static RUNS: Map = Map { names: "the name of a run", ty: Type::Object(&RUN) };
+static MEASURES: Map = Map { names: "the name of a measure", ty: Type::Code(CodeForm::Expression) };
+static FORMS: Map = Map { names: "the label of a trace", ty: Type::Either(&EXPRESSION, &EXACT) };
 static SCALAR: Type = Type::Scalar;
 static NUMBER: Type = Type::Number;
 static LIST: Type = Type::List(&NUMBER);
 static CHANGES: Map =
-    Map { names: "kind, name and attribute of an element of the model", of: Type::Either(&SCALAR, &LIST) };
+    Map { names: "kind, name and attribute of an element of the model", ty: Type::Either(&SCALAR, &LIST) };
 static RANGE: Type = Type::Object(&SPAN);
 static SWEPT: Map = Map {
     names: "the label of a control, or an attribute of the model as in `model`",
-    of: Type::Either(&LIST, &RANGE),
+    ty: Type::Either(&LIST, &RANGE),
 };
-static FOUND: Map = Map { names: "the name of a value", of: Type::Object(&FIND) };
+static FOUND: Map = Map { names: "the name of a value", ty: Type::Object(&FIND) };
 static KEYED: [PairHalf; 2] = [
-    PairHalf { what: "the heading of the column that distinguishes the rows", of: Type::Text },
-    PairHalf { what: "the list of its numbers", of: Type::Code(Form::Expression) },
+    PairHalf { what: "the heading of the column that distinguishes the rows", ty: Type::Text },
+    PairHalf { what: "the list of its numbers", ty: Type::Code(CodeForm::Expression) },
 ];
 static A_COLUMN: Type = Type::Object(&COLUMN);
-static SPACE: Map = Map { names: "the label of a slider", of: Type::List(&NUMBER) };
-static SETTINGS: Map = Map { names: "the label of a slider or a select", of: Type::Scalar };
+static SPACE: Map = Map { names: "the label of a slider", ty: Type::List(&NUMBER) };
+static SETTINGS: Map = Map { names: "the label of a slider or a select", ty: Type::Scalar };
 
 static QUOTE: [PairHalf; 2] = [
-    PairHalf { what: "the text that a reader sees, with its number", of: Type::Text },
+    PairHalf { what: "the text that a reader sees, with its number", ty: Type::Text },
     PairHalf {
         what: "what the number must be, or a list: one for each of its numbers, and conditions that its words state",
-        of: Type::Either(&EXPRESSION, &EXPRESSIONS),
+        ty: Type::Either(&EXPRESSION, &EXPRESSIONS),
     },
 ];
 static EXPRESSIONS: Type = Type::List(&EXPRESSION);
-static IN_WORDS: Map = Map { names: "the text of a cell", of: Type::Code(Form::Expression) };
+static IN_WORDS: Map = Map { names: "the text of a cell", ty: Type::Code(CodeForm::Expression) };
 static WORDED: Type = Type::Map(&IN_WORDS);
 static SAID: Type = Type::Pair(&QUOTE);
 
 static PRESSED: [PairHalf; 2] = [
-    PairHalf { what: "the label of a button", of: Type::Text },
-    PairHalf { what: "the time in s", of: Type::Number },
+    PairHalf { what: "the label of a button", ty: Type::Text },
+    PairHalf { what: "the time in s", ty: Type::Number },
 ];
 static PRESS: Type = Type::Pair(&PRESSED);
 
@@ -110,7 +110,7 @@ pub static VERIFY: Object = Object {
         .or(Absent::Empty),
         key(
             "value",
-            Type::Code(Form::Expression),
+            Type::Code(CodeForm::Expression),
             "on a numeric question: what its answer must be, within `tol`",
             r#""speed""#,
         ),
@@ -175,7 +175,7 @@ pub static RUN: Object = Object {
             .or(Absent::Said("that of the lab")),
         key(
             "controller",
-            Type::Code(Form::Statements),
+            Type::Code(CodeForm::Statements),
             "runs before every step instead of the `controller` of the lab; empty for none",
             r#""data.qfrc_applied[0] = -data.qvel[0]""#,
         )
@@ -196,7 +196,7 @@ pub static RUN: Object = Object {
         .or(Absent::Empty),
         key(
             "setup",
-            Type::Code(Form::Statements),
+            Type::Code(CodeForm::Statements),
             "runs after the `setup` of the lab",
             r#""model.opt.timestep = 0.001""#,
         ),
@@ -207,7 +207,7 @@ pub static RUN: Object = Object {
         key("steps", Type::Whole, "the length of the run, in steps", "500").positive(),
         key(
             "stop",
-            Type::Code(Form::Expression),
+            Type::Code(CodeForm::Expression),
             "the run ends at the first sample where this holds, and at the latest after `until` or `steps`",
             r#""data.time >= 1""#,
         )
@@ -280,7 +280,7 @@ pub static FIND: Object = Object {
             .or(Absent::Said("the only run")),
         key(
             "while",
-            Type::Code(Form::Expression),
+            Type::Code(CodeForm::Expression),
             "the condition that holds up to the limit, on measures of the run, by their own names, or written as a measure",
             r#""final(data.qpos[2] + 4.905 * data.time ** 2) > initial(data.qpos[2]) - 0.1""#,
         )
@@ -318,7 +318,7 @@ pub static CLOSED_FORM: Object = Object {
     keys: &[
         key(
             "is",
-            Type::Code(Form::Expression),
+            Type::Code(CodeForm::Expression),
             "the formula, in the language of the lab",
             r#""2 - 0.5 * 9.81 * data.time ** 2""#,
         )

@@ -17,7 +17,7 @@ pub(crate) use task::tasks;
 use super::bound::BoundVerify;
 use super::format::significant;
 use super::numerics::CHANGES;
-use super::outcome::Outcome;
+use super::outcome::MeasuredRuns;
 use super::outcomes::Outcomes;
 use super::quote::RenderedText;
 use super::quote_checker::Quote;
@@ -87,7 +87,7 @@ pub(crate) fn judge(
     }
     // An answer over a range needs many runs that are not recorded: it is counted in [`Unjudged`].
     let verify = &Verify { over: Vec::new(), ..verify.clone() };
-    let [ours, now] = [&nominal, &theirs].map(|o| verdicts(bound, verify, question, rendered, o));
+    let [ours, current] = [&nominal, &theirs].map(|o| verdicts(bound, verify, question, rendered, o));
     let mut turn = |place: Range<usize>, what: &str, before: &str, after: &str, values: String| {
         judged.turned += 1;
         findings.push(
@@ -111,23 +111,29 @@ pub(crate) fn judge(
         })
         .collect();
     let values = if most.is_empty() { "a run breaks in one of them".to_string() } else { most.join(", ") };
-    if let (Some(ours), Some(now)) = (&ours.0, &now.0) {
+    if let (Some(ours), Some(current)) = (&ours.0, &current.0) {
         judged.claims += 1;
-        if ours.verdict != now.verdict {
+        if ours.verdict != current.verdict {
             let right = question.and_then(Question::right_option).and_then(|i| verify.options.get(i));
             let place = verify.value.as_ref().or(right).map_or(verify.span.clone(), Text::span);
-            turn(place, "this answer", ours.verdict.as_str(), now.verdict.as_str(), values.clone());
+            turn(place, "this answer", ours.verdict.as_str(), current.verdict.as_str(), values.clone());
         }
     }
-    for (ours, now) in ours.1.iter().zip(&now.1) {
+    for (ours, current) in ours.1.iter().zip(&current.1) {
         judged.claims += 1;
-        if ours.state != now.state {
+        if ours.state != current.state {
             let numbers = format!(
                 "it is {} here but {} there",
                 format_value(ours.computed),
-                format_value(now.computed)
+                format_value(current.computed)
             );
-            turn(ours.span.clone(), &format!("\"{}\"", ours.text), ours.verdict(), now.verdict(), numbers);
+            turn(
+                ours.span.clone(),
+                &format!("\"{}\"", ours.text),
+                ours.verdict(),
+                current.verdict(),
+                numbers,
+            );
         }
     }
     Some(judged)
@@ -149,7 +155,7 @@ fn verdicts(
     verify: &Verify,
     question: Option<&Question>,
     rendered: &RenderedText,
-    outcome: &Outcome,
+    outcome: &MeasuredRuns,
 ) -> (Option<Answer>, Vec<Quote>) {
     let outcomes =
         Outcomes { nominal: outcome.clone(), perturbed: [const { None }; CHANGES], perturbed_back: None };

@@ -5,7 +5,7 @@ use super::{Judged, Reference};
 use crate::spec::Verify;
 use crate::verify::bound::BoundVerify;
 use crate::verify::numerics::{PERTURBED_START, TIGHT_SOLVER};
-use crate::verify::outcome::Outcome;
+use crate::verify::outcome::MeasuredRuns;
 
 /// Numbers are equal if they differ by less than this fraction, or by less than a thousandth of it near zero.
 const RELATIVE_TOLERANCE: f64 = 1e-6;
@@ -17,10 +17,10 @@ const NUMERICS: f64 = 2.0;
 pub(super) fn replaced(
     bound: &BoundVerify<'_>,
     verify: &Verify,
-    nominal: &Outcome,
+    nominal: &MeasuredRuns,
     reference: &Reference<'_>,
     judged: &mut Judged,
-) -> Outcome {
+) -> MeasuredRuns {
     let mut theirs = nominal.clone();
     let unknown = || Err("its run is not recorded".to_string());
     for (i, run) in theirs.runs.iter_mut().enumerate() {
@@ -66,12 +66,12 @@ pub(super) fn replaced(
 pub(super) fn compare(
     bound: &BoundVerify<'_>,
     verify: &Verify,
-    nominal: &Outcome,
-    theirs: &Outcome,
+    nominal: &MeasuredRuns,
+    theirs: &MeasuredRuns,
     judged: &mut Judged,
 ) {
     let mut other: Option<Vec<Vec<f64>>> = None;
-    let numbers = |outcome: &Outcome| -> Vec<(String, f64)> {
+    let numbers = |outcome: &MeasuredRuns| -> Vec<(String, f64)> {
         let own_values = own_texts(bound, verify).into_iter().map(|text| {
             let found = bound.find(outcome, text, &mut Vec::new());
             (text.value.clone(), found.map_or(f64::NAN, |f| f.value.to_number()))
@@ -87,10 +87,10 @@ pub(super) fn compare(
             continue;
         }
         judged.compared += 1;
-        let apart = (a - b).abs();
+        let difference = (a - b).abs();
         let same = a == b
             || a.is_nan() && b.is_nan()
-            || apart <= RELATIVE_TOLERANCE * a.abs().max(b.abs()) + 1e-3 * RELATIVE_TOLERANCE;
+            || difference <= RELATIVE_TOLERANCE * a.abs().max(b.abs()) + 1e-3 * RELATIVE_TOLERANCE;
         if same {
             continue;
         }
@@ -99,7 +99,7 @@ pub(super) fn compare(
             made.iter().flatten().map(|o| numbers(o).into_iter().map(|(_, x)| x).collect()).collect()
         });
         let moved = others.iter().filter_map(|list| list.get(i)).map(|x| (x - a).abs()).fold(0.0, f64::max);
-        if apart.is_nan() || apart > NUMERICS * moved {
+        if difference.is_nan() || difference > NUMERICS * moved {
             judged.differing.push((name, a, b));
         }
     }

@@ -107,7 +107,7 @@ fn task(
     if let Some((label, x)) = run.control {
         set.push((label.value.clone(), chosen(lab, label, &Value::Number(x))?));
     }
-    let length = |of: Option<f64>| of.or(lab.stop_at.as_ref().map(|s| s.value)).unwrap_or(RUN_LENGTH);
+    let length = |given: Option<f64>| given.or(lab.stop_at.as_ref().map(|s| s.value)).unwrap_or(RUN_LENGTH);
     Ok(RunTask {
         lab: lab_task(lab),
         xml,

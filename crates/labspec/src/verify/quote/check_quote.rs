@@ -36,7 +36,7 @@ pub(in crate::verify) fn check_quote(
         Ok(reading) => reading,
         Err(unread) => return report_unread(claim, unread, outcome, findings),
     };
-    let compared = Comparison::new(claim, reading, &mut places, value);
+    let compared = QuoteComparison::new(claim, reading, &mut places, value);
     outcome.places = places.into_iter().map(|p| p.at).collect();
     outcome.computed = compared.computed;
     outcome.read = Some(compared.read);
@@ -91,7 +91,7 @@ fn report_unread(
 }
 
 /// A quoted number, and the value of its expression in the unit of the quote.
-struct Comparison<'q> {
+struct QuoteComparison<'q> {
     claim: &'q QuoteClaim<'q>,
     reading: &'q QuoteReading,
     /// The unit of the quote, and whether it agrees with the dimension of the expression.
@@ -108,27 +108,27 @@ struct Comparison<'q> {
     read: Quoted,
 }
 
-impl<'q> Comparison<'q> {
+impl<'q> QuoteComparison<'q> {
     /// Converts the value of the expression. Only the places with the unit of the quote are kept.
     fn new(
         claim: &'q QuoteClaim<'q>,
         reading: &'q QuoteReading,
         places: &mut Vec<QuotePlace>,
         value: &QuoteValue<'_>,
-    ) -> Comparison<'q> {
+    ) -> QuoteComparison<'q> {
         let measured = match reading.unit.is_some() || places.iter().any(|p| p.unit.is_some()) {
             true => (value.unit)(),
             false => None,
         };
         let unit = unit_at(reading, places, measured.as_ref());
         // Minutes and degrees are converted. A factor that is a power of ten is reported instead.
-        let wanted = unit.as_ref().and_then(|(unit, _)| unit.dimension);
-        let factor = wanted.zip(measured).and_then(|(wanted, found)| conversion(&wanted, &found));
+        let expected = unit.as_ref().and_then(|(unit, _)| unit.dimension);
+        let factor = expected.zip(measured).and_then(|(expected, found)| conversion(&expected, &found));
         let factor = factor.filter(|f| !is_power_of_ten(*f)).filter(|_| reading.share.is_none());
         // A unit elsewhere in the clause may belong to another quantity. It counts as the unit of the number only if the
         // number is right in it.
-        let apart = unit.as_ref().is_some_and(|(unit, _)| unit.link == Link::Clause);
-        let factor = factor.filter(|f| !apart || reading.read.is(f * value.computed));
+        let in_clause = unit.as_ref().is_some_and(|(unit, _)| unit.link == Link::Clause);
+        let factor = factor.filter(|f| !in_clause || reading.read.is(f * value.computed));
         let scale = |x: f64| factor.map_or(x, |f| x * f);
         let scaled =
             |list: &[OtherValue]| list.iter().map(|o| OtherValue { value: scale(o.value), ..*o }).collect();
@@ -136,7 +136,7 @@ impl<'q> Comparison<'q> {
         let fits = [Some(reading.read), reading.share].into_iter().flatten().find(|q| q.is(computed));
         let (timestep, start) = (scaled(value.timestep), scaled(value.start));
         let read = fits.unwrap_or(reading.read);
-        Comparison { claim, reading, unit, measured, factor, computed, timestep, start, fits, read }
+        QuoteComparison { claim, reading, unit, measured, factor, computed, timestep, start, fits, read }
     }
 
     /// The runs under perturbed numerics in which the printed digits change, and what they print.
@@ -167,7 +167,7 @@ impl<'q> Comparison<'q> {
         mut outcome: QuoteOutcome,
         findings: &mut Vec<Finding>,
     ) -> QuoteOutcome {
-        let Comparison { claim, reading, measured, read, .. } = self;
+        let QuoteComparison { claim, reading, measured, read, .. } = self;
         // A fraction stated in percent is right in any unit. A converted number is already in the unit of the quote.
         let kind = measured.filter(|m| m.is_exact() && !m.is_number());
         let unit = self.unit.filter(|_| (fits == reading.read || kind.is_some()) && self.factor.is_none());
@@ -199,7 +199,7 @@ impl<'q> Comparison<'q> {
 
     /// The outcome where the number differs: it has another reading, is in another unit, or is wrong.
     fn explain_difference(&self, mut outcome: QuoteOutcome, findings: &mut Vec<Finding>) -> QuoteOutcome {
-        let Comparison { claim, reading, read, computed, .. } = self;
+        let QuoteComparison { claim, reading, read, computed, .. } = self;
         if let Some((other, why)) = reading.ambiguities.iter().find(|(q, _)| q.is(*computed)) {
             let finding = messages::ambiguous_unit(claim, &outcome, read, why, Some(other));
             return unclear(outcome, "the quote has two readings", finding, findings);

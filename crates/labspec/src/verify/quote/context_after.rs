@@ -39,14 +39,14 @@ const UNSPACED_CHANGING_WORDS: [&str; 19] = [
 pub(super) fn after(chars: Chars<'_>, end: usize, has_unit: bool) -> Option<&'static str> {
     let c = chars.at(end)?;
     let next = chars.skip_blanks(end);
-    let apart = next > end;
+    let after_blank = next > end;
     let number_at = |i: usize| {
         let i = chars.skip_blanks(i);
         chars.digit(i)
             || chars.at(i) == Some('.') && chars.digit(i + 1)
             || chars.at(i).is_some_and(|c| fraction(c).is_some())
     };
-    if !apart {
+    if !after_blank {
         match c {
             '^' => return Some("a power"),
             '_' | '′' | '″' | '\\' | '#' | '@' | '$' | '&' => return Some(FORMULA),
@@ -91,7 +91,7 @@ pub(super) fn after(chars: Chars<'_>, end: usize, has_unit: bool) -> Option<&'st
         c if c.is_alphabetic() && !has_unit && has_unit_nearby(&chars.text(next, next + MAX_CONTEXT)) => {
             Some(UNIT_SOON)
         }
-        '-' | '–' if apart => letter(chars, chars.skip_blanks(next + 1)),
+        '-' | '–' if after_blank => letter(chars, chars.skip_blanks(next + 1)),
         c if c.is_alphabetic() => words_after(chars, next),
         // A symbol after the whole quantity, such as a check mark in a list.
         '\u{2600}'..='\u{27bf}' | '\u{1f000}'..='\u{1faff}' if has_unit => None,

@@ -51,7 +51,7 @@ pub(super) fn fold(text: &str, flat: bool) -> (String, SourceMap) {
         match what {
             Meaning::Space => out.wait(range),
             Meaning::Nothing => {}
-            Meaning::Apart => out.apart(at),
+            Meaning::Separator => out.separate(at),
             Meaning::Tilde if out.text.ends_with(|c: char| c.is_ascii_digit()) && out.space.is_none() => {
                 out.wait(range)
             }
@@ -78,7 +78,7 @@ enum Meaning {
     Space,
     Nothing,
     /// Displayed separately from the text before it.
-    Apart,
+    Separator,
     /// A space after a digit, else "about".
     Tilde,
     Letter(char),
@@ -97,7 +97,7 @@ fn is_plain(b: u8) -> bool {
 
 fn meaning(c: char, flat: bool) -> Meaning {
     match c {
-        TEXT_SEPARATOR => Meaning::Apart,
+        TEXT_SEPARATOR => Meaning::Separator,
         '$' | '{' | '}' | '\u{200b}'..='\u{200d}' | '\u{2060}' | '\u{feff}' | '\u{ad}' => Meaning::Nothing,
         '~' | '∼' => Meaning::Tilde,
         '−' | '‐' | '‑' => Meaning::Letter('-'),
@@ -244,7 +244,7 @@ impl Out {
         self.row = Some(mark);
     }
 
-    fn apart(&mut self, at: usize) {
+    fn separate(&mut self, at: usize) {
         self.space = None;
         self.glue = true;
         if !self.text.is_empty() && !self.text.ends_with('\n') {

@@ -49,10 +49,10 @@ pub(in crate::verify) fn unit_of_head(head: &str) -> Option<Unit> {
     // A power of ten times a unit is the unit of the cells. `(10 s)` may be a time of measurement.
     let text = behind_heading(head)?;
     let read = read_quote(text).ok()?;
-    let (size, of) = (read.number().value, read.unit()?.dimension?);
+    let (size, dimension) = (read.number().value, read.unit()?.dimension?);
     let power = text.starts_with("10")
         && text.get(2..)?.trim_start().starts_with(['^', '*', '⁻', '²', '³', '⁴', '⁶', '⁹']);
-    (power && size.is_finite() && size > 0.0).then(|| unit(text, of.times(1.0 / size))).flatten()
+    (power && size.is_finite() && size > 0.0).then(|| unit(text, dimension.times(1.0 / size))).flatten()
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! The findings about a quoted number.
 
-use super::number::{Form, Quoted, ten};
+use super::number::{NumberForm, Quoted, ten};
 use super::quote_claim::{QuoteClaim, QuoteOutcome};
 use super::unit::Shift;
 use super::unit_text::{Link, Unit};
@@ -145,7 +145,7 @@ pub(super) fn uncertain_unit(
 pub(super) fn wrong(claim: &QuoteClaim<'_>, outcome: &QuoteOutcome, read: &Quoted) -> Finding {
     let right = printed(read, outcome.computed);
     let within = match read.form {
-        Form::PlusMinus(..) | Form::Range(..) => ", which is outside it",
+        NumberForm::PlusMinus(..) | NumberForm::Range(..) => ", which is outside it",
         _ => "",
     };
     let message = format!(
@@ -162,7 +162,7 @@ pub(super) fn wrong(claim: &QuoteClaim<'_>, outcome: &QuoteOutcome, read: &Quote
         ));
     }
     found.help(match read.form {
-        Form::PlusMinus(..) | Form::Range(..) => {
+        NumberForm::PlusMinus(..) | NumberForm::Range(..) => {
             format!("write a range that contains {right}, or correct the expression")
         }
         _ => format!("write {right}, or correct the expression"),
@@ -234,7 +234,7 @@ pub(super) fn chaotic(
 
 /// The longest printed form on which all values agree, with fewer decimals than the quote; `None` when there is none.
 fn longest_agreed_form(read: &Quoted, values: &[f64]) -> Option<String> {
-    let Form::Plain(_) = read.form else { return None };
+    let NumberForm::Plain(_) = read.form else { return None };
     let fewer = (0..read.decimals).rev().map(|decimals| Quoted { decimals, ..*read });
     let mut prints = fewer.map(|q| values.iter().map(|&x| printed(&q, x)).collect::<Vec<_>>());
     let same = prints.find(|all| all.iter().all(|text| Some(text) == all.first()))?;

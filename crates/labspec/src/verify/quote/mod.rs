@@ -31,7 +31,7 @@ mod words;
 
 pub(super) use check_quote::{check_quote, places_of_quote};
 pub(super) use markdown_cell::unit_of_head;
-pub use number::{Form, Quoted, Style};
+pub use number::{NumberForm, Quoted, Style};
 pub(super) use option_text::{OptionNumber, option_ratio, option_text};
 pub use quote_claim::{OtherValue, QuoteOutcome, QuoteState};
 pub(super) use quote_claim::{QuoteClaim, QuotePlace, QuoteValue};

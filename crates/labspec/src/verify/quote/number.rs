@@ -15,12 +15,12 @@ pub struct Quoted {
     /// The power of ten, 0 without an exponent.
     pub exponent: i32,
     /// How it is written.
-    pub form: Form,
+    pub form: NumberForm,
 }
 
 /// How a number is written.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Form {
+pub enum NumberForm {
     /// Digits, optionally with a power of ten.
     Plain(Style),
     /// `½`, `1¾`: compared to two decimals.
@@ -47,7 +47,7 @@ impl Quoted {
     pub fn is(&self, x: f64) -> bool {
         match self.form {
             // The ends are included, with a tolerance for their rounding errors.
-            Form::PlusMinus(low, high) | Form::Range(low, high) => {
+            NumberForm::PlusMinus(low, high) | NumberForm::Range(low, high) => {
                 let slack = 1e-9 * low.abs().max(high.abs());
                 low - slack <= x && x <= high + slack
             }
@@ -59,9 +59,9 @@ impl Quoted {
     /// Another number, printed with the same precision.
     pub fn print(&self, x: f64) -> String {
         let style = match self.form {
-            Form::Plain(style) => style,
-            Form::Fraction | Form::Share => Style::default(),
-            Form::PlusMinus(..) | Form::Range(..) => return crate::verify::significant(x),
+            NumberForm::Plain(style) => style,
+            NumberForm::Fraction | NumberForm::Share => Style::default(),
+            NumberForm::PlusMinus(..) | NumberForm::Range(..) => return crate::verify::significant(x),
         };
         if !x.is_finite() || x.abs() >= 1e15 && self.exponent == 0 {
             return crate::verify::significant(x);
@@ -116,16 +116,16 @@ impl fmt::Display for Quoted {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let short = crate::verify::significant;
         match self.form {
-            Form::PlusMinus(low, high) => {
+            NumberForm::PlusMinus(low, high) => {
                 write!(f, "{} ± {}", short((low + high) / 2.0), short((high - low) / 2.0))
             }
-            Form::Range(low, high) => write!(f, "{} to {}", short(low), short(high)),
+            NumberForm::Range(low, high) => write!(f, "{} to {}", short(low), short(high)),
             // The digits without separators.
-            Form::Plain(style) => {
-                let plain = Quoted { form: Form::Plain(Style { group: None, ..style }), ..*self };
+            NumberForm::Plain(style) => {
+                let plain = Quoted { form: NumberForm::Plain(Style { group: None, ..style }), ..*self };
                 f.write_str(&plain.print(self.value))
             }
-            Form::Fraction | Form::Share => f.write_str(&self.print(self.value)),
+            NumberForm::Fraction | NumberForm::Share => f.write_str(&self.print(self.value)),
         }
     }
 }
@@ -136,7 +136,7 @@ mod tests {
 
     fn plain(value: f64, decimals: usize, exponent: i32) -> Quoted {
         let half_unit = 0.5 * ten(exponent - decimals as i32);
-        Quoted { value, half_unit, decimals, exponent, form: Form::Plain(Style::default()) }
+        Quoted { value, half_unit, decimals, exponent, form: NumberForm::Plain(Style::default()) }
     }
 
     #[test]
@@ -159,8 +159,10 @@ mod tests {
         assert_eq!(plain(30e-7, 0, -7).print(0.0), "0e-7");
         // 12.2625 is halfway between two numbers with three decimals.
         assert!(plain(12.263, 3, 0).is(12.2625) && plain(12.262, 3, 0).is(12.2625));
-        let thousands =
-            Quoted { form: Form::Plain(Style { group: Some(','), times: false }), ..plain(1500.0, 0, 0) };
+        let thousands = Quoted {
+            form: NumberForm::Plain(Style { group: Some(','), times: false }),
+            ..plain(1500.0, 0, 0)
+        };
         assert_eq!(thousands.print(-1234567.0), "-1,234,567");
         assert_eq!(thousands.print(123.0), "123");
         assert_eq!(thousands.to_string(), "1500");
@@ -180,7 +182,7 @@ mod tests {
 
     #[test]
     fn a_range_contains_its_interval() {
-        let q = Quoted { form: Form::Range(0.4, 0.5), ..plain(0.45, 1, 0) };
+        let q = Quoted { form: NumberForm::Range(0.4, 0.5), ..plain(0.45, 1, 0) };
         assert!(q.is(0.4) && q.is(0.5) && !q.is(0.501) && !q.is(f64::NAN) && q.differ(0.45, 0.51));
         assert_eq!(q.to_string(), "0.4 to 0.5");
     }

@@ -1,6 +1,6 @@
 //! Numerals: digits with their separators, decimals, fractions and powers of ten. The grammar is in `docs/quantities.md`.
 
-use super::number::{Form, Quoted, Style, ten};
+use super::number::{NumberForm, Quoted, Style, ten};
 use labspec_bind::units::is_wide;
 use nom::branch::alt;
 use nom::bytes::complete::{tag, tag_no_case, take_while, take_while_m_n};
@@ -243,7 +243,7 @@ fn factor(text: &str) -> IResult<&str, i32> {
 }
 
 /// The scale after the digits of a number, or in place of them: a fraction (`2½`, `½`), or a power of ten.
-enum Scale {
+enum NumeralScale {
     Fraction(f64),
     /// Its exponent, and whether it is written out.
     Power(i32, bool),
@@ -251,14 +251,14 @@ enum Scale {
     PowerOfDigits(i32),
 }
 
-fn scale<'t>(text: &'t str, mantissa: &Mantissa) -> IResult<&'t str, Scale> {
+fn scale<'t>(text: &'t str, mantissa: &Mantissa) -> IResult<&'t str, NumeralScale> {
     let is_whole = mantissa.decimals == 0 && mantissa.group.is_none() && mantissa.refused.is_none();
     let alone = mantissa.digits.is_empty();
     let blanks = verify(spaces, |blanks: &str| blanks.is_empty() || !alone);
     alt((
-        map(verify(preceded(blanks, map_opt(anychar, fraction)), |_| is_whole), Scale::Fraction),
-        map(power, |(n, written)| Scale::Power(n, written)),
-        map(verify(preceded(char('^'), integer), |_| mantissa.digits == "10"), Scale::PowerOfDigits),
+        map(verify(preceded(blanks, map_opt(anychar, fraction)), |_| is_whole), NumeralScale::Fraction),
+        map(power, |(n, written)| NumeralScale::Power(n, written)),
+        map(verify(preceded(char('^'), integer), |_| mantissa.digits == "10"), NumeralScale::PowerOfDigits),
     ))
     .parse(text)
 }
@@ -272,9 +272,9 @@ fn numeral(text: &str, negative: bool) -> (Numeral, usize) {
     let (rest, factor) = factors.map_or((rest, None), |(rest, n)| (rest, Some(n)));
     let (mut extra, mut exponent, mut times) = (None, 0, factor.is_some());
     match scale {
-        Some(Scale::Fraction(x)) => (extra, written.decimals) = (Some(x), 2),
-        Some(Scale::Power(n, written_out)) => (exponent, times) = (n, times || written_out),
-        Some(Scale::PowerOfDigits(n)) => (written.digits, exponent, times) = ("1".into(), n, true),
+        Some(NumeralScale::Fraction(x)) => (extra, written.decimals) = (Some(x), 2),
+        Some(NumeralScale::Power(n, written_out)) => (exponent, times) = (n, times || written_out),
+        Some(NumeralScale::PowerOfDigits(n)) => (written.digits, exponent, times) = ("1".into(), n, true),
         None => {}
     }
     match (factor, extra) {
@@ -295,7 +295,7 @@ fn numeral(text: &str, negative: bool) -> (Numeral, usize) {
     let value = format!("{digits}e{exponent}").parse::<f64>().unwrap_or(f64::NAN) + extra.unwrap_or(0.0);
     let half_unit = 0.5 * ten(exponent.saturating_sub(decimals as i32));
     ambiguities.iter_mut().for_each(|x| *x *= sign);
-    let form = if extra.is_some() { Form::Fraction } else { Form::Plain(Style { group, times }) };
+    let form = if extra.is_some() { NumberForm::Fraction } else { NumberForm::Plain(Style { group, times }) };
     let quoted = Quoted { value: sign * value, half_unit, decimals, exponent, form };
     (Numeral { quoted, start: 0, end: 0, ambiguities, is_ambiguous, refused }, text.len() - rest.len())
 }

@@ -1,7 +1,7 @@
 //! The quantity that the text of an option states, with its precision according to the words.
 
 use super::context::BOUND;
-use super::number::{Form, Quoted};
+use super::number::{NumberForm, Quoted};
 use super::numeral::Chars;
 use super::quantity::{Quantity, quantities};
 use super::unit_text::Unit;
@@ -149,12 +149,12 @@ fn stated_range(q: &Quantity, before: &str) -> Option<(f64, f64)> {
     });
     let Quoted { value, half_unit, form, .. } = q.quoted;
     match (q.refused, form) {
-        (None, Form::Range(a, b) | Form::PlusMinus(a, b)) => Some((a, b)),
+        (None, NumberForm::Range(a, b) | NumberForm::PlusMinus(a, b)) => Some((a, b)),
         (None, _) => {
             let off = half_unit.max(value.abs() * if is_about { ABOUT } else { PRINTED });
             Some((value - off, value + off))
         }
-        (Some(BOUND), Form::Plain(_)) => {
+        (Some(BOUND), NumberForm::Plain(_)) => {
             let states = |list: &[&str]| list.iter().any(|w| before.ends_with(w));
             match (states(&LOWER_BOUND_WORDS), states(&UPPER_BOUND_WORDS)) {
                 (true, false) => Some((value, f64::INFINITY)),
@@ -227,7 +227,9 @@ pub(in crate::verify) fn option_ratio(option: &str) -> Option<OptionRatio> {
         .collect();
     let (text, x, share) = match (all.as_slice(), words.as_slice()) {
         ([], [(word, x)]) => (word.clone(), *x, false),
-        ([q], []) if q.refused.is_none() && matches!(q.quoted.form, Form::Plain(_) | Form::Share) => {
+        ([q], [])
+            if q.refused.is_none() && matches!(q.quoted.form, NumberForm::Plain(_) | NumberForm::Share) =>
+        {
             let text = chars.text(q.whole.start, q.whole.end);
             match q.unit.as_ref().filter(|unit| unit.is_own()) {
                 Some(unit) => (text, q.quoted.value * 10f64.powi(unit.share()?), true),
@@ -307,9 +309,9 @@ mod tests {
 
     #[test]
     fn the_number_of_an_option_is_read() {
-        let of = |text: &str| option_text(text).map(|n| (n.text, n.low, n.high));
+        let parsed = |text: &str| option_text(text).map(|n| (n.text, n.low, n.high));
         let is = |text: &str, low: f64, high: f64| {
-            let (rendered, a, b) = of(text).unwrap_or_else(|| panic!("{text}"));
+            let (rendered, a, b) = parsed(text).unwrap_or_else(|| panic!("{text}"));
             assert!(
                 (a - low).abs() < 1e-9 * low.abs().max(1.0) && (b - high).abs() < 1e-9 * high.abs().max(1.0),
                 "{text}: {rendered} {a} {b}"
@@ -323,7 +325,7 @@ mod tests {
         is("One hundred metres", 95.0, 105.0);
         is("**7 m**", 6.5, 7.5);
         is("roughly 7 m, no more", 6.3, 7.7);
-        assert_eq!(of("more than 7 m"), Some(("7 m".into(), 7.0, f64::INFINITY)));
+        assert_eq!(parsed("more than 7 m"), Some(("7 m".into(), 7.0, f64::INFINITY)));
         for text in [
             "7 m farther",
             "by 7 m",
@@ -337,7 +339,7 @@ mod tests {
             "nothing",
             "it is there after 7 s",
         ] {
-            assert_eq!(of(text), None, "{text}");
+            assert_eq!(parsed(text), None, "{text}");
         }
         let alone = |text: &str| option_text(text).unwrap().alone;
         assert!(alone("about 7 m") && alone("h = 7 m.") && alone("**7 m**") && !alone("It rises to 7 m"));

@@ -26,7 +26,7 @@ struct SearchedText {
 
 /// A node of a trie over the bytes of the searched texts, from their first digits on.
 #[derive(Debug, Default)]
-struct Node {
+struct TrieNode {
     next: Vec<(u8, u32)>,
     ends: Vec<u32>,
 }
@@ -35,14 +35,14 @@ struct Node {
 #[derive(Debug)]
 pub(super) struct Search {
     needles: Vec<SearchedText>,
-    nodes: Vec<Node>,
+    nodes: Vec<TrieNode>,
     /// Number of steps, for tests that the work is proportional to the text.
     pub(super) work: usize,
 }
 
 impl Search {
     pub(super) fn new() -> Search {
-        Search { needles: Vec::new(), nodes: vec![Node::default()], work: 0 }
+        Search { needles: Vec::new(), nodes: vec![TrieNode::default()], work: 0 }
     }
 
     /// Adds a quote; returns the index of its results.
@@ -60,7 +60,7 @@ impl Search {
                 Some(next) => next,
                 None => {
                     let next = self.nodes.len();
-                    self.nodes.push(Node::default());
+                    self.nodes.push(TrieNode::default());
                     if let Some(n) = self.nodes.get_mut(node) {
                         n.next.push((b, next as u32));
                     }
@@ -155,7 +155,7 @@ pub(super) struct Readable {
     character: Vec<u32>,
     quantities: Vec<Quantity>,
     /// The quantities with the ends of ranges as separate quantities.
-    apart: Vec<Quantity>,
+    separate: Vec<Quantity>,
 }
 
 impl Readable {
@@ -170,7 +170,7 @@ impl Readable {
             flat,
             character,
             quantities: quantities(Chars(chars)),
-            apart: separate_quantities(Chars(chars)),
+            separate: separate_quantities(Chars(chars)),
         }
     }
 
@@ -183,7 +183,7 @@ impl Readable {
         let at = |byte: usize| self.character.get(byte).map(|i| *i as usize);
         let (start, end) = (at(bytes.start)?, at(bytes.end)?);
         let among = |all: &[Quantity]| states(all, start..end, quantities);
-        let unit = among(&self.quantities).or_else(|| among(&self.apart))?;
+        let unit = among(&self.quantities).or_else(|| among(&self.separate))?;
         Some(QuoteMatch { bytes: bytes.clone(), unit })
     }
 }

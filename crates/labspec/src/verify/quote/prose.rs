@@ -3,7 +3,7 @@
 
 use super::hidden::HiddenElement;
 use super::html::{TEXT_SEPARATOR, mark, visible_text};
-use super::table::{Table, Tables};
+use super::table::{RenderedTable, Tables};
 use crate::markdown::html::tags;
 use crate::markdown::{self, Block, BlockKind};
 use crate::source::{SourceMap, Text};
@@ -31,11 +31,11 @@ pub(super) fn pieces(lesson: &Lesson) -> Vec<Text> {
 }
 
 /// The tables of rendered prose, in order.
-pub(super) fn tables(lesson: &Lesson) -> Vec<Table> {
+pub(super) fn tables(lesson: &Lesson) -> Vec<RenderedTable> {
     read(lesson).1
 }
 
-fn read(lesson: &Lesson) -> (Vec<Text>, Vec<Table>) {
+fn read(lesson: &Lesson) -> (Vec<Text>, Vec<RenderedTable>) {
     if lesson.file.path().to_ascii_lowercase().ends_with(".json") {
         return Default::default();
     }
@@ -45,7 +45,7 @@ fn read(lesson: &Lesson) -> (Vec<Text>, Vec<Table>) {
         return Default::default();
     }
     let text = lesson.file.text();
-    let mut reader = Reader {
+    let mut reader = ProseReader {
         text,
         blocks: &lesson.scan.blocks,
         pieces: Vec::new(),
@@ -95,7 +95,7 @@ fn notes(text: &str) -> BTreeSet<String> {
     used
 }
 
-struct Reader<'t> {
+struct ProseReader<'t> {
     text: &'t str,
     blocks: &'t [Block],
     pieces: Vec<Text>,
@@ -112,7 +112,7 @@ struct Reader<'t> {
     inline: bool,
 }
 
-impl Reader<'_> {
+impl ProseReader<'_> {
     /// Reads from `from` on. Returns where to resume when a damaged fence contains the text after it. The function is long
     /// because it has one arm for each event of the Markdown parser.
     fn pass(&mut self, from: usize) -> Option<usize> {

@@ -4,7 +4,7 @@
 use super::clause_unit::clause_unit;
 use super::context::before;
 use super::context_after::after;
-use super::number::{Form, Quoted, ten};
+use super::number::{NumberForm, Quoted, ten};
 use super::numeral::{Chars, Numeral, numbers};
 use super::unit_text::{Link, Unit, unit_after};
 use std::ops::Range;
@@ -51,31 +51,33 @@ pub(super) fn separate_quantities(chars: Chars<'_>) -> Vec<Quantity> {
     read(chars, true)
 }
 
-fn read(chars: Chars<'_>, apart: bool) -> Vec<Quantity> {
+fn read(chars: Chars<'_>, separate: bool) -> Vec<Quantity> {
     let singles = singles(chars);
     let mut all: Vec<Quantity> = Vec::with_capacity(singles.len());
     let mut rest = singles.into_iter().peekable();
     while let Some(mut first) = rest.next() {
         match rest.peek().map(|second| pair(chars, &first, second)) {
-            Some(Pair::One(_) | Pair::Refused(_)) if apart && in_words(chars, &first, rest.peek()) => {
+            Some(NumberRelation::One(_) | NumberRelation::Refused(_))
+                if separate && in_words(chars, &first, rest.peek()) =>
+            {
                 all.push(first);
             }
-            Some(Pair::One(one)) => {
+            Some(NumberRelation::One(one)) => {
                 rest.next();
                 all.push(one);
             }
-            Some(Pair::Refused(form)) => {
+            Some(NumberRelation::Refused(form)) => {
                 first.refused = Some(form);
                 if let Some(second) = rest.peek_mut() {
                     second.refused = Some(form);
                 }
                 all.push(first);
             }
-            Some(Pair::Change) => {
+            Some(NumberRelation::Change) => {
                 first.change = true;
                 all.push(first);
             }
-            Some(Pair::Two) | None => all.push(first),
+            Some(NumberRelation::Two) | None => all.push(first),
         }
     }
     for q in &mut all {
@@ -137,7 +139,7 @@ fn in_words(chars: Chars<'_>, first: &Quantity, second: Option<&Quantity>) -> bo
 }
 
 /// How two adjacent numbers are related.
-enum Pair {
+enum NumberRelation {
     Two,
     One(Quantity),
     /// A change from the first to the second.
@@ -146,9 +148,9 @@ enum Pair {
 }
 
 /// The relation of two numbers: one quantity if they form a plus-minus value or a range.
-fn pair(chars: Chars<'_>, first: &Quantity, second: &Quantity) -> Pair {
+fn pair(chars: Chars<'_>, first: &Quantity, second: &Quantity) -> NumberRelation {
     if second.whole.start < first.number_end || second.whole.start - first.number_end > 60 {
-        return Pair::Two;
+        return NumberRelation::Two;
     }
     let gap = chars.text(first.number_end, second.whole.start);
     let unit_text = |q: &Quantity| chars.text(q.number_end, q.whole.end).trim().to_string();
@@ -167,19 +169,19 @@ fn pair(chars: Chars<'_>, first: &Quantity, second: &Quantity) -> Pair {
     let to = matches!(link, "to" | "bis" | "到" | "至" | "から");
     let is_range = between || to || link == "…" || link == "..." || dash && (link != "-" || !spaced);
     if !is_range {
-        return Pair::Two;
+        return NumberRelation::Two;
     }
     if to && preceded("from") || matches!(link, "から") || preceded("从") {
-        return Pair::Change;
+        return NumberRelation::Change;
     }
     let one_unit = first_unit.is_empty() || first_unit == second_unit;
     if !one_unit || a.exponent != b.exponent && a.exponent == 0 {
-        return Pair::Refused("a range whose ends have different units or powers of ten");
+        return NumberRelation::Refused("a range whose ends have different units or powers of ten");
     }
     if dash && a.value > b.value {
-        return Pair::Refused("a difference or a range");
+        return NumberRelation::Refused("a difference or a range");
     }
-    let form = Form::Range(a.value.min(b.value), a.value.max(b.value));
+    let form = NumberForm::Range(a.value.min(b.value), a.value.max(b.value));
     join_pair(first, second, form, (a.value + b.value) / 2.0, second.unit.clone())
 }
 
@@ -189,24 +191,30 @@ fn plus_minus(
     [first, second]: [&Quantity; 2],
     left: &str,
     [first_unit, second_unit]: [&str; 2],
-) -> Pair {
+) -> NumberRelation {
     let (a, b) = (first.quoted, second.quoted);
     let relative = !left.is_empty() && !left.starts_with('%') && second_unit == "%";
     let one_unit = left == first_unit && (left.is_empty() || left == second_unit || relative);
     if !one_unit || left.is_empty() && second_unit == "%" {
-        return Pair::Refused("a plus-minus value with an unclear unit");
+        return NumberRelation::Refused("a plus-minus value with an unclear unit");
     }
     if chars.at(second.whole.end) == Some(')') || a.exponent != b.exponent && a.exponent == 0 {
-        return Pair::Refused("a plus-minus value with an unclear power of ten");
+        return NumberRelation::Refused("a plus-minus value with an unclear power of ten");
     }
     let about = if relative { a.value * b.value / 100.0 } else { b.value }.abs();
     let unit = if relative { first.unit.clone() } else { second.unit.clone() };
-    join_pair(first, second, Form::PlusMinus(a.value - about, a.value + about), a.value, unit)
+    join_pair(first, second, NumberForm::PlusMinus(a.value - about, a.value + about), a.value, unit)
 }
 
 /// Joins two numbers into one quantity.
-fn join_pair(first: &Quantity, second: &Quantity, form: Form, value: f64, unit: Option<Unit>) -> Pair {
-    Pair::One(Quantity {
+fn join_pair(
+    first: &Quantity,
+    second: &Quantity,
+    form: NumberForm,
+    value: f64,
+    unit: Option<Unit>,
+) -> NumberRelation {
+    NumberRelation::One(Quantity {
         quoted: Quoted { form, value, ..first.quoted },
         ambiguities: Vec::new(),
         is_ambiguous: first.is_ambiguous.or(second.is_ambiguous),
@@ -230,9 +238,9 @@ pub(super) fn as_share(q: &Quoted, unit: &Unit) -> Option<Quoted> {
     let power = unit.share()?;
     let scale = |x: f64| x * ten(power);
     let form = match q.form {
-        Form::PlusMinus(a, b) => Form::PlusMinus(scale(a), scale(b)),
-        Form::Range(a, b) => Form::Range(scale(a), scale(b)),
-        _ => Form::Share,
+        NumberForm::PlusMinus(a, b) => NumberForm::PlusMinus(scale(a), scale(b)),
+        NumberForm::Range(a, b) => NumberForm::Range(scale(a), scale(b)),
+        _ => NumberForm::Share,
     };
     Some(Quoted {
         value: scale(q.value),

@@ -1,6 +1,6 @@
 //! Reads the number that a quote states. A form that is not understood is an error that names it; nothing is guessed.
 
-use super::number::{Form, Quoted, Style};
+use super::number::{NumberForm, Quoted, Style};
 use super::numeral::Chars;
 use super::quantity::{Quantity, as_share, quantities, singles};
 use super::unit_text::Unit;
@@ -85,7 +85,7 @@ pub(in crate::verify) fn read_quote(text: &str) -> Result<QuoteReading, Unread> 
     let several = "it contains more than one number";
     let others = all.get(at + 1..).unwrap_or_default();
     reading.last = others.is_empty();
-    if !matches!(reading.read.form, Form::PlusMinus(..) | Form::Range(..)) {
+    if !matches!(reading.read.form, NumberForm::PlusMinus(..) | NumberForm::Range(..)) {
         reading.ambiguities.extend(others.iter().map(|q| (q.quoted, several)));
         if !others.is_empty() {
             reading.is_ambiguous = reading.is_ambiguous.or(Some(several));
@@ -103,7 +103,7 @@ fn of_quantity(q: &Quantity) -> Result<QuoteReading, Unread> {
         return Err(Unread::Form("a number too large to compute with"));
     }
     let why = match q.quoted.form {
-        Form::Plain(Style { group: Some(','), .. }) => "its comma may separate thousands or decimals",
+        NumberForm::Plain(Style { group: Some(','), .. }) => "its comma may separate thousands or decimals",
         _ => "its space may separate thousands or two numbers",
     };
     Ok(QuoteReading {
@@ -135,14 +135,14 @@ pub(in crate::verify) fn whole(text: &str) -> QuotePart {
     QuotePart { text: text.to_string(), reading: read_quote(text) }
 }
 
-/// The parts of a text that state one number each, in order. A range is one part, unless its two ends give the `wanted`
+/// The parts of a text that state one number each, in order. A range is one part, unless its two ends give the `expected`
 /// number of parts.
-pub(in crate::verify) fn parts(text: &str, wanted: usize) -> Vec<QuotePart> {
+pub(in crate::verify) fn parts(text: &str, expected: usize) -> Vec<QuotePart> {
     let chars = characters(text);
     let chars = Chars(&chars);
     let mut all = quantities(chars);
     let single = singles(chars);
-    if all.len() != wanted && single.len() == wanted {
+    if all.len() != expected && single.len() == expected {
         all = single;
     }
     let text_of = |i: usize| {

@@ -112,7 +112,7 @@ fn a_plus_minus_and_a_range_contain_their_interval() {
         ("-5 to -3", -5.0, -3.0),
     ] {
         let q = read(text).read;
-        let (Form::PlusMinus(a, b) | Form::Range(a, b)) = q.form else { panic!("{text}: {q:?}") };
+        let (NumberForm::PlusMinus(a, b) | NumberForm::Range(a, b)) = q.form else { panic!("{text}: {q:?}") };
         assert!((a - low).abs() < 1e-12 && (b - high).abs() < 1e-12, "{text}: {a} {b}");
         assert!(
             q.is(low) && q.is(high) && q.is((low + high) / 2.0) && !q.is(high + 0.1 * (high - low)),

@@ -6,7 +6,7 @@ use super::markdown_cell::unit_of_column;
 use super::pieces::rendered_pieces;
 use super::places::{MAX_PLACES, Readable, Search};
 use super::quote_claim::QuotePlace;
-use super::table::Table;
+use super::table::RenderedTable;
 use super::{fold, html, prose};
 use crate::run::Cell;
 use crate::source::{SourceMap, Text};
@@ -21,7 +21,7 @@ pub struct RenderedText {
     /// The place of a quote that is not rendered: in code, a key, a listing.
     hidden: BTreeMap<String, Range<usize>>,
     /// The tables, if a claim refers to one.
-    tables: Vec<Table>,
+    tables: Vec<RenderedTable>,
 }
 
 /// Maximum number of searched quotes without a number: each needs a pass through the text.
@@ -94,13 +94,13 @@ impl RenderedText {
             let quote = quoted.quote.as_str();
             (quote.to_string(), self.found(quote).iter().filter(|p| inside(&&p.at)).cloned().collect())
         });
-        let begins = |t: &&Table| t.head.first().is_some_and(|cell| inside(&&cell.span));
+        let begins = |t: &&RenderedTable| t.head.first().is_some_and(|cell| inside(&&cell.span));
         let tables = self.tables.iter().filter(|_| !verify.table.is_empty()).filter(begins);
         RenderedText { places: places.collect(), hidden: BTreeMap::new(), tables: tables.cloned().collect() }
     }
 
     /// The tables with these columns.
-    pub(super) fn tables<'t>(&'t self, headings: &'t [&str]) -> impl Iterator<Item = &'t Table> {
+    pub(super) fn tables<'t>(&'t self, headings: &'t [&str]) -> impl Iterator<Item = &'t RenderedTable> {
         self.tables.iter().filter(move |table| headings.iter().all(|h| table.column(h).is_some()))
     }
 
@@ -123,13 +123,13 @@ impl RenderedText {
 /// Quotes that equal the initial value of a slider with its unit: `0.010 s`. Used only for quotes without another place.
 fn at_sliders<'q>(lesson: &Lesson, quotes: &BTreeMap<&'q str, usize>) -> BTreeMap<&'q str, Range<usize>> {
     let folded = |text: &str| fold::fold(&html::strip(text).0, true).0;
-    let wanted: BTreeMap<String, &'q str> = quotes.keys().map(|quote| (folded(quote), *quote)).collect();
+    let searched: BTreeMap<String, &'q str> = quotes.keys().map(|quote| (folded(quote), *quote)).collect();
     let labs = lesson.addressed().into_iter();
     let displayed = labs.flat_map(|(_, lab)| &lab.controls).filter_map(|control| {
         let ControlKind::Slider { unit, value, .. } = &control.kind else { return None };
         let number = Cell::Number(value.value).rounded(control.digits()?);
         let text = unit.as_ref().map_or(number.clone(), |unit| format!("{number} {}", unit.as_str()));
-        Some((*wanted.get(&folded(&text))?, value.span.clone()))
+        Some((*searched.get(&folded(&text))?, value.span.clone()))
     });
     displayed.collect()
 }
@@ -159,17 +159,17 @@ fn has_number(text: &str) -> bool {
 /// The places of words without a number, at word boundaries.
 fn find_words(text: &str, quote: &str) -> Vec<Range<usize>> {
     let (plain, _) = html::strip(quote);
-    let wanted = fold::fold(&plain, true).0.trim_matches('\n').to_string();
-    if wanted.trim().is_empty() {
+    let searched = fold::fold(&plain, true).0.trim_matches('\n').to_string();
+    if searched.trim().is_empty() {
         return Vec::new();
     }
     let goes_on =
         |a: Option<char>, b: Option<char>| [a, b].iter().all(|c| c.is_some_and(char::is_alphanumeric));
-    let found = text.match_indices(&wanted).map(|(at, found)| at..at + found.len());
+    let found = text.match_indices(&searched).map(|(at, found)| at..at + found.len());
     let stands_alone = |r: &Range<usize>| {
         let [before, after] = [text.get(..r.start).unwrap_or(""), text.get(r.end..).unwrap_or("")];
-        !goes_on(before.chars().next_back(), wanted.chars().next())
-            && !goes_on(wanted.chars().next_back(), after.chars().next())
+        !goes_on(before.chars().next_back(), searched.chars().next())
+            && !goes_on(searched.chars().next_back(), after.chars().next())
             && !is_denied(before)
     };
     found.filter(stands_alone).take(MAX_PLACES).collect()

@@ -18,18 +18,18 @@ pub(super) struct TableCell {
 
 /// A table: its headings, and its rows.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(super) struct Table {
+pub(super) struct RenderedTable {
     /// The headings.
     pub(super) head: Vec<TableCell>,
     /// The rows after the heading.
     pub(super) rows: Vec<Vec<TableCell>>,
 }
 
-impl Table {
+impl RenderedTable {
     /// The index of a column.
     pub(super) fn column(&self, heading: &str) -> Option<usize> {
-        let wanted = rendered(heading);
-        self.head.iter().position(|cell| cell.text == wanted)
+        let heading_text = rendered(heading);
+        self.head.iter().position(|cell| cell.text == heading_text)
     }
 }
 
@@ -46,7 +46,7 @@ fn plain(text: &str) -> String {
 /// Tables while they are read.
 #[derive(Debug, Default)]
 pub(super) struct Tables {
-    pub(super) all: Vec<Table>,
+    pub(super) all: Vec<RenderedTable>,
     row: Vec<TableCell>,
     /// Whether the current table exceeds the maximum number.
     beyond: bool,
@@ -56,7 +56,7 @@ impl Tables {
     pub(super) fn begin(&mut self) {
         self.beyond = self.all.len() >= TABLES;
         if !self.beyond {
-            self.all.push(Table::default());
+            self.all.push(RenderedTable::default());
         }
     }
 

@@ -44,10 +44,10 @@ pub(in crate::verify) fn cells_of_column(
         value: cell.text.clone(),
         map: SourceMap::whole(cell.text.len(), cell.span.clone()),
     };
-    let wanted = claim.row.as_ref().map(|row| table::rendered(row.as_str()));
+    let row_text = claim.row.as_ref().map(|row| table::rendered(row.as_str()));
     let rows = table.rows.iter().filter_map(|row| Some([text(row.get(by)?), text(row.get(column)?)]));
     let cells: Vec<[Text; 2]> =
-        rows.filter(|[key, _]| wanted.as_ref().is_none_or(|w| *w == key.value)).collect();
+        rows.filter(|[key, _]| row_text.as_ref().is_none_or(|w| *w == key.value)).collect();
     match (cells.is_empty(), &claim.row) {
         (false, _) => Ok(cells),
         (true, Some(row)) => Err([

@@ -23,13 +23,13 @@ pub(in crate::verify) enum UnitMatch {
 pub(in crate::verify) fn hold(unit: &Unit, found: Option<&Dimension>) -> UnitMatch {
     let Some(found) = found else { return UnitMatch::Unknown };
     let wrong = if unit.link == Link::Clause { UnitMatch::Unsure } else { UnitMatch::Wrong };
-    let Some(wanted) = &unit.dimension else {
+    let Some(expected) = &unit.dimension else {
         let other = units::is_unit(&unit.text);
         let certain = found.is_exact() && !found.is_number();
         return if other && certain { wrong } else { UnitMatch::Unknown };
     };
     // The unit radian may be omitted, but another power of it is wrong.
-    let angle = wanted.angle();
+    let angle = expected.angle();
     if found.is_exact() && found.has_angle() && angle != found.angle() && !(0.0..=1.0).contains(&angle) {
         return wrong;
     }
@@ -38,12 +38,12 @@ pub(in crate::verify) fn hold(unit: &Unit, found: Option<&Dimension>) -> UnitMat
         return wrong;
     }
     // Hertz counts turns, which are not radians.
-    let turns = unit.text.contains("Hz") && found.is_exact() && found.has_angle() && found.agrees(wanted);
-    if !contradicts(found, wanted) && !turns {
+    let turns = unit.text.contains("Hz") && found.is_exact() && found.has_angle() && found.agrees(expected);
+    if !contradicts(found, expected) && !turns {
         return UnitMatch::Fits;
     }
     match unit.link == Link::Clause
-        || unit.is_doubtful() && unit.link == Link::Direct && !found.agrees(wanted)
+        || unit.is_doubtful() && unit.link == Link::Direct && !found.agrees(expected)
     {
         true => UnitMatch::Unsure,
         false => UnitMatch::Wrong,
@@ -106,7 +106,7 @@ pub(in crate::verify) fn answer_unit(text: Option<&str>, found: Option<Dimension
     if plain == "g" && !found.agrees(&Dimension::base(1)) {
         return AnswerUnit::Unknown;
     }
-    if let Some(factor) = read.dimension.and_then(|wanted| conversion(&wanted, &found)) {
+    if let Some(factor) = read.dimension.and_then(|expected| conversion(&expected, &found)) {
         return AnswerUnit::Equal(factor);
     }
     let unit = Unit { text: plain, dimension: read.dimension, link: Link::Shared };
@@ -124,7 +124,7 @@ mod tests {
     #[test]
     fn units_of_answers_are_converted_or_wrong() {
         let d = |text: &str| units::parse(text);
-        let of = |unit: &str, found: &str| answer_unit(Some(unit), d(found));
+        let checked = |unit: &str, found: &str| answer_unit(Some(unit), d(found));
         for (unit, found, factor) in [
             ("s", "s", 1.0),
             ("ms", "s", 1000.0),
@@ -133,21 +133,21 @@ mod tests {
             ("mm", "m", 1000.0),
             ("%", "1", 100.0),
         ] {
-            let AnswerUnit::Equal(found) = of(unit, found) else { panic!("{unit} {found}") };
+            let AnswerUnit::Equal(found) = checked(unit, found) else { panic!("{unit} {found}") };
             assert!((found / factor - 1.0).abs() < 1e-12, "{unit}: {found}");
         }
         for (unit, found) in
             [("kg", "s"), ("ms", "m"), ("m/s", "m"), ("dB", "s"), ("A", "s"), ("h", "m"), ("°C", "s")]
         {
-            assert!(matches!(of(unit, found), AnswerUnit::Wrong(..)), "{unit} {found}");
+            assert!(matches!(checked(unit, found), AnswerUnit::Wrong(..)), "{unit} {found}");
         }
         assert_eq!(answer_unit(Some("ms"), None), AnswerUnit::Unknown);
         assert_eq!(answer_unit(None, d("s")), AnswerUnit::Unknown);
-        assert_eq!(of("bounces", "1"), AnswerUnit::Unknown);
+        assert_eq!(checked("bounces", "1"), AnswerUnit::Unknown);
         for unit in ["bounces", "S", "blinks of an eye"] {
-            assert!(matches!(of(unit, "s"), AnswerUnit::Unread(..)), "{unit}");
+            assert!(matches!(checked(unit, "s"), AnswerUnit::Unread(..)), "{unit}");
         }
-        assert!(matches!(of("furlongs", "s"), AnswerUnit::Wrong(..)));
+        assert!(matches!(checked("furlongs", "s"), AnswerUnit::Wrong(..)));
         // A number literal that is a factor may have a dimension.
         assert_eq!(answer_unit(Some("m/s"), d("s").map(|s| s.times(9.81))), AnswerUnit::Equal(1.0));
         // The value is already in milliseconds.

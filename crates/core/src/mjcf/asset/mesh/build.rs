@@ -1,11 +1,11 @@
 //! Converts mesh data to a mesh in its own frame: reference frame and scale, centre of mass, principal axes.
 
 use super::bulk;
-use super::bulk::Body;
 use super::bulk::Mass;
+use super::bulk::MeshBody;
 use super::normals;
 use crate::math::{IDENTITY, MINVAL, Quat, Vec3, mat_t_mul_vec, quat_normalize, quat_to_mat, sub};
-use crate::mjcf::asset::mesh::{Flat, Hull, Mesh, Problem, Raw, triangle};
+use crate::mjcf::asset::mesh::{AssetProblem, CompiledMesh, ConvexHull, Flat, Raw, triangle};
 use crate::mjcf::body::inertia::principal_to;
 use crate::mjcf::gather::listed;
 use labspec_finding::order;
@@ -16,17 +16,17 @@ const AXES: f64 = 1e-7;
 
 /// The parameters of a mesh asset, besides its data.
 #[derive(Clone, Debug)]
-pub(crate) struct Options {
+pub(crate) struct MeshOptions {
     pub(crate) scale: Vec3,
     /// The reference frame, in which the mesh is expressed.
     pub(crate) refpos: Vec3,
     pub(crate) refquat: Quat,
     pub(crate) smooth: bool,
     pub(crate) maxhullvert: Option<usize>,
-    pub(crate) body: Body,
+    pub(crate) body: MeshBody,
 }
 
-impl Options {
+impl MeshOptions {
     /// Whether the scale mirrors the mesh.
     fn mirrors(&self) -> bool {
         self.scale.iter().product::<f64>() < 0.0
@@ -34,11 +34,11 @@ impl Options {
 }
 
 /// Builds a mesh. Computes its convex hull only if the mesh itself depends on it; other code calls [`hull`].
-pub(crate) fn mesh(mut raw: Raw, options: Options) -> Result<Mesh, Problem> {
+pub(crate) fn mesh(mut raw: Raw, options: MeshOptions) -> Result<CompiledMesh, AssetProblem> {
     check_faces(&raw, options.body)?;
     let written = raw.vert.clone();
     let mut own_hull = None;
-    if raw.face.is_empty() || options.body == Body::Convex {
+    if raw.face.is_empty() || options.body == MeshBody::Convex {
         own_hull = Some(unscaled_hull(&written, &options)?);
     }
     if let Some(hull) = own_hull.as_ref().filter(|_| raw.face.is_empty()) {
@@ -59,14 +59,14 @@ pub(crate) fn mesh(mut raw: Raw, options: Options) -> Result<Mesh, Problem> {
         let lists = [&mut raw.face, &mut raw.facenormal, &mut raw.facetexcoord].into_iter();
         lists.chain(own_hull.as_mut().map(|h| &mut h.face)).flatten().for_each(|f| f.swap(1, 2));
     }
-    let solid = own_hull.as_ref().filter(|_| options.body == Body::Convex).map_or(&raw.face, |h| &h.face);
+    let solid = own_hull.as_ref().filter(|_| options.body == MeshBody::Convex).map_or(&raw.face, |h| &h.face);
     let Mass { amount, centre, inertia } = mass(&raw.vert, &raw.face, solid, options.body)?;
     let largest = inertia.iter().fold(0.0_f64, |s, x| s.max(x.abs()));
     let (moments, quat) = principal_to(AXES * largest, inertia);
     let [a, b, c] = moments;
     let most = a.max(b).max(c);
     if c.min(b).min(a) <= 0.0 || !most.is_finite() || a + b + c - 2.0 * most < -1e-6 * most - 1e-9 {
-        return Err(Problem::new(
+        return Err(AssetProblem::new(
             "inertia",
             format!("has the principal moments {a}, {b}, {c} for a density of one, which no body has"),
             "its triangles do not enclose a volume, or have different orientations",
@@ -84,11 +84,22 @@ pub(crate) fn mesh(mut raw: Raw, options: Options) -> Result<Mesh, Problem> {
             (std::array::from_fn(|i| lower[i].min(v[i])), std::array::from_fn(|i| upper[i].max(v[i])));
     }
     raw.normal.iter_mut().for_each(|n| *n = mat_t_mul_vec(&axes, *n));
-    Ok(Mesh { shape: raw, written, hull: own_hull, options, pos: centre, quat, amount, half, lower, upper })
+    Ok(CompiledMesh {
+        shape: raw,
+        written,
+        hull: own_hull,
+        options,
+        pos: centre,
+        quat,
+        amount,
+        half,
+        lower,
+        upper,
+    })
 }
 
 /// The convex hull of a mesh.
-pub(crate) fn hull(mesh: &Mesh) -> Result<Hull, Problem> {
+pub(crate) fn hull(mesh: &CompiledMesh) -> Result<ConvexHull, AssetProblem> {
     let mut hull = unscaled_hull(&mesh.written, &mesh.options)?;
     if mesh.options.mirrors() {
         hull.face.iter_mut().for_each(|f| f.swap(1, 2));
@@ -97,8 +108,8 @@ pub(crate) fn hull(mesh: &Mesh) -> Result<Hull, Problem> {
 }
 
 /// The convex hull of the vertices before scaling.
-fn unscaled_hull(written: &[Vec3], options: &Options) -> Result<Hull, Problem> {
-    Hull::from_points(written, options.maxhullvert).map_err(|flat| {
+fn unscaled_hull(written: &[Vec3], options: &MeshOptions) -> Result<ConvexHull, AssetProblem> {
+    ConvexHull::from_points(written, options.maxhullvert).map_err(|flat| {
         let (what, help) = match flat {
             Flat::Point => ("has all its vertices in one place", "write a small sphere instead"),
             Flat::Line => ("has all its vertices on a line", "write a thin capsule instead"),
@@ -108,15 +119,15 @@ fn unscaled_hull(written: &[Vec3], options: &Options) -> Result<Hull, Problem> {
             ),
             Flat::Endless => ("has a convex hull that is too hard to find", "use fewer vertices"),
         };
-        Problem::new("", what, "the convex hull of a mesh makes the contacts, so it must have a volume", help)
+        AssetProblem::new("", what, "the convex hull of a mesh makes the contacts, so it must have a volume", help)
     })
 }
 
 /// Checks that the data suffice for a mesh.
-fn check_faces(raw: &Raw, body: Body) -> Result<(), Problem> {
+fn check_faces(raw: &Raw, body: MeshBody) -> Result<(), AssetProblem> {
     let count = raw.vert.len();
     if count < 4 {
-        return Err(Problem::new(
+        return Err(AssetProblem::new(
             "vertex",
             format!("has {count} vertices"),
             "the smallest solid has four corners",
@@ -124,7 +135,7 @@ fn check_faces(raw: &Raw, body: Body) -> Result<(), Problem> {
         ));
     }
     if let Some(i) = raw.vert.iter().position(|v| v.iter().any(|x| !x.is_finite())) {
-        return Err(Problem::new(
+        return Err(AssetProblem::new(
             "vertex",
             format!("has vertex {i} at a position that is not finite"),
             "",
@@ -133,7 +144,7 @@ fn check_faces(raw: &Raw, body: Body) -> Result<(), Problem> {
     }
     for (i, face) in raw.face.iter().enumerate() {
         if let Some(&v) = face.iter().find(|&&v| usize::try_from(v).map_or(true, |v| v >= count)) {
-            return Err(Problem::new(
+            return Err(AssetProblem::new(
                 "face",
                 format!(
                     "has vertex {v} in triangle {i}, but its {count} vertices are numbered 0 to {}",
@@ -144,11 +155,11 @@ fn check_faces(raw: &Raw, body: Body) -> Result<(), Problem> {
             ));
         }
     }
-    if body == Body::Exact { check_orientation(raw) } else { Ok(()) }
+    if body == MeshBody::Exact { check_orientation(raw) } else { Ok(()) }
 }
 
 /// Checks that neighbouring triangles have the same orientation: the two traverse their common edge in opposite directions.
-fn check_orientation(raw: &Raw) -> Result<(), Problem> {
+fn check_orientation(raw: &Raw) -> Result<(), AssetProblem> {
     let corner = |v: i32| raw.vert.get(v as usize).copied().unwrap_or_default();
     let solid = |f: &&[i32; 3]| triangle(f.map(corner)).0 > libm::sqrt(MINVAL);
     let mut edges: Vec<(i32, i32)> =
@@ -156,7 +167,7 @@ fn check_orientation(raw: &Raw) -> Result<(), Problem> {
     order::sort_by(&mut edges, Ord::cmp);
     match edges.windows(2).find(|pair| pair[0] == pair[1]) {
         None => Ok(()),
-        Some(pair) => Err(Problem::new(
+        Some(pair) => Err(AssetProblem::new(
             "face",
             format!(
                 "has triangles with opposite orientations at the edge of vertices {} and {}",
@@ -169,8 +180,8 @@ fn check_orientation(raw: &Raw) -> Result<(), Problem> {
 }
 
 /// Transforms vertices and normals to the reference frame and scales them.
-fn place(raw: &mut Raw, options: &Options) {
-    let Options { scale, refpos, refquat, .. } = options;
+fn place(raw: &mut Raw, options: &MeshOptions) {
+    let MeshOptions { scale, refpos, refquat, .. } = options;
     let turn = quat_to_mat(quat_normalize(*refquat));
     for v in &mut raw.vert {
         *v = sub(*v, *refpos);
@@ -190,21 +201,21 @@ fn place(raw: &mut Raw, options: &Options) {
 }
 
 /// The mass properties of the body that a mesh represents.
-fn mass(vert: &[Vec3], face: &[[i32; 3]], solid: &[[i32; 3]], body: Body) -> Result<Mass, Problem> {
+fn mass(vert: &[Vec3], face: &[[i32; 3]], solid: &[[i32; 3]], body: MeshBody) -> Result<Mass, AssetProblem> {
     let triangles = |faces| bulk::triangles(vert, faces);
     let (area, middle) = bulk::surface(triangles(face));
     if area < MINVAL || !area.is_finite() {
-        return Err(Problem::new(
+        return Err(AssetProblem::new(
             "",
             format!("has triangles with a total area of {area:.1e} square metres"),
             "such a small or large surface cannot have a mass",
             "check `scale`: the mesh is in metres, and no axis may be scaled by zero",
         ));
     }
-    let solid = if body == Body::Shell { face } else { solid };
+    let solid = if body == MeshBody::Shell { face } else { solid };
     let (amount, centre) = bulk::volume_and_centre(triangles(solid), body, middle);
     if amount < 0.0 {
-        return Err(Problem::new(
+        return Err(AssetProblem::new(
             "face",
             "is inside out: its triangles enclose a negative volume",
             "an exact inertia needs the outer side of each triangle",
@@ -212,7 +223,7 @@ fn mass(vert: &[Vec3], face: &[[i32; 3]], solid: &[[i32; 3]], body: Body) -> Res
         ));
     }
     if amount < MINVAL || !amount.is_finite() {
-        return Err(Problem::new(
+        return Err(AssetProblem::new(
             "",
             format!("encloses {amount:.1e} cubic metres"),
             "a body without volume has no mass",

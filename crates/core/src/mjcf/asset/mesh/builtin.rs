@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 use crate::math::{Vec3, normalize};
-use crate::mjcf::asset::mesh::{Problem, Raw};
+use crate::mjcf::asset::mesh::{AssetProblem, Raw};
 
 /// The keywords of `builtin`, each with the names of its parameters.
 const RULES: [(&str, &[&str]); 7] = [
@@ -26,9 +26,9 @@ const RULES: [(&str, &[&str]); 7] = [
 const MAX_RESOLUTION: f64 = 500.0;
 
 /// Generates a mesh. Also returns whether it is an open surface without volume.
-pub(crate) fn make(rule: &str, params: &[f64]) -> Result<(Raw, bool), Problem> {
+pub(crate) fn make(rule: &str, params: &[f64]) -> Result<(Raw, bool), AssetProblem> {
     let Some((_, names)) = RULES.iter().find(|(name, _)| *name == rule) else {
-        return Err(Problem::new(
+        return Err(AssetProblem::new(
             "builtin",
             format!("uses the unknown rule `{rule}`"),
             "",
@@ -36,7 +36,7 @@ pub(crate) fn make(rule: &str, params: &[f64]) -> Result<(Raw, bool), Problem> {
         ));
     };
     if params.len() != names.len() {
-        return Err(Problem::new(
+        return Err(AssetProblem::new(
             "params",
             format!(
                 "has {} of the {} parameters of `{rule}`: {}",
@@ -50,7 +50,7 @@ pub(crate) fn make(rule: &str, params: &[f64]) -> Result<(Raw, bool), Problem> {
     }
     for ((x, name), (low, high)) in params.iter().zip(*names).zip(ranges(rule)) {
         if !(*low..=*high).contains(x) {
-            return Err(Problem::new(
+            return Err(AssetProblem::new(
                 "params",
                 format!("has {x} for the {name} of `{rule}`, which must be from {low} to {high}"),
                 "",

@@ -13,7 +13,7 @@ use crate::math::{Vec3, add, add_scaled, cross, dot, sub};
 
 /// The body that a mesh represents.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Body {
+pub(crate) enum MeshBody {
     /// The convex hull.
     Convex,
     /// The solid that the triangles enclose; their orientation determines the sign.
@@ -41,33 +41,33 @@ pub(super) fn triangles<'m>(vert: &'m [Vec3], face: &'m [[i32; 3]]) -> impl Iter
     face.iter().map(|f| f.map(|v| vert.get(v as usize).copied().unwrap_or_default()))
 }
 
-impl Body {
+impl MeshBody {
     /// V of the simplex of a triangle. A tetrahedron has its apex at the origin.
     fn measure(self, t: Triangle) -> f64 {
         let [a, b, c] = t;
         let volume = dot(a, cross(b, c)) / 6.0;
         match self {
-            Body::Shell => triangle(t).0,
-            Body::Legacy => volume.abs(),
-            Body::Exact | Body::Convex => volume,
+            MeshBody::Shell => triangle(t).0,
+            MeshBody::Legacy => volume.abs(),
+            MeshBody::Exact | MeshBody::Convex => volume,
         }
     }
 
     /// n: the number of corners of a simplex.
     fn corners(self) -> f64 {
-        if self == Body::Shell { 3.0 } else { 4.0 }
+        if self == MeshBody::Shell { 3.0 } else { 4.0 }
     }
 }
 
 /// Area and centre of area.
 pub(super) fn surface(triangles: impl Iterator<Item = Triangle>) -> (f64, Vec3) {
-    volume_and_centre(triangles, Body::Shell, [0.0; 3])
+    volume_and_centre(triangles, MeshBody::Shell, [0.0; 3])
 }
 
 /// Volume or area, and centre of mass, from simplexes with the apex `apex`.
 pub(super) fn volume_and_centre(
     triangles: impl Iterator<Item = Triangle>,
-    body: Body,
+    body: MeshBody,
     apex: Vec3,
 ) -> (f64, Vec3) {
     let (mut total, mut first) = (0.0, [0.0; 3]);
@@ -81,7 +81,7 @@ pub(super) fn volume_and_centre(
 }
 
 /// Volume or area, and inertia about `centre`, from simplexes with this apex.
-pub(super) fn inertia_about(triangles: impl Iterator<Item = Triangle>, body: Body, centre: Vec3) -> Mass {
+pub(super) fn inertia_about(triangles: impl Iterator<Item = Triangle>, body: MeshBody, centre: Vec3) -> Mass {
     let corners = body.corners();
     let (mut amount, mut second) = (0.0, [[0.0; 3]; 3]);
     for t in triangles {
@@ -123,15 +123,15 @@ mod tests {
             let [x, y, z] = half.map(|h: f64| h * h / 3.0);
             let volume: f64 = 8.0 * half.iter().product::<f64>();
             let triangles = || cuboid(half, at).into_iter();
-            let (found, centre) = volume_and_centre(triangles(), Body::Exact, apex);
-            let mass = inertia_about(triangles(), Body::Exact, centre);
-            let want = [y + z, x + z, x + y, 0.0, 0.0, 0.0].map(|m| m * volume);
+            let (found, centre) = volume_and_centre(triangles(), MeshBody::Exact, apex);
+            let mass = inertia_about(triangles(), MeshBody::Exact, centre);
+            let expected = [y + z, x + z, x + y, 0.0, 0.0, 0.0].map(|m| m * volume);
             prop_assert!((found / volume - 1.0).abs() < 1e-9 && (mass.amount / volume - 1.0).abs() < 1e-12);
             for i in 0..3 {
                 prop_assert!((centre[i] - at[i]).abs() < 1e-9);
             }
             for i in 0..6 {
-                prop_assert!((mass.inertia[i] - want[i]).abs() < 1e-9 * volume, "{:?} {:?}", mass.inertia, want);
+                prop_assert!((mass.inertia[i] - expected[i]).abs() < 1e-9 * volume, "{:?} {:?}", mass.inertia, expected);
             }
         }
     }

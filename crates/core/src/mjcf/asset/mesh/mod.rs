@@ -1,7 +1,7 @@
 //! Triangle meshes from text, files or a rule. The vertices are relative to the centre of mass, along the principal axes. A mesh
 //! has a volume, an inertia and a convex hull.
 //!
-//! [`Raw`] contains the data as given; [`build::mesh`] computes a [`Mesh`] from it, in the order that MuJoCo's documentation
+//! [`Raw`] contains the data as given; [`build::mesh`] computes a [`CompiledMesh`] from it, in the order that MuJoCo's documentation
 //! describes ("XML reference, asset/mesh"; details measured on the library).
 
 pub(crate) mod build;
@@ -17,8 +17,8 @@ mod triangulate;
 use crate::kinds::geom;
 use crate::math::{Quat, Vec3, add, dot, norm, rotate, scale, sub};
 
-pub(crate) use bulk::Body;
-pub(crate) use quickhull::{Flat, Hull};
+pub(crate) use bulk::MeshBody;
+pub(crate) use quickhull::{ConvexHull, Flat};
 
 /// Limit for the vertices of a mesh: more than any collision shape needs.
 pub(crate) const MAX_VERTICES: usize = 1_000_000;
@@ -42,13 +42,13 @@ pub(crate) struct Raw {
 
 /// A mesh ready for geoms.
 #[derive(Clone, Debug)]
-pub(crate) struct Mesh {
+pub(crate) struct CompiledMesh {
     /// The shape for rendering and for rays: vertices in the frame of the mesh, m.
     pub(crate) shape: Raw,
     /// The vertices before scaling. The hull is computed from them.
     pub(crate) written: Vec<Vec3>,
-    pub(crate) hull: Option<Hull>,
-    pub(crate) options: build::Options,
+    pub(crate) hull: Option<ConvexHull>,
+    pub(crate) options: build::MeshOptions,
     /// Centre of mass in the frame in which the data were given, m.
     pub(crate) pos: Vec3,
     /// Orientation of the principal axes in that frame.
@@ -62,7 +62,7 @@ pub(crate) struct Mesh {
     pub(crate) upper: Vec3,
 }
 
-impl Mesh {
+impl CompiledMesh {
     /// Centre and half lengths of the box that contains the vertices, m.
     pub(crate) fn aabb(&self) -> [f64; 6] {
         let ([a, b, c], [x, y, z]) = (self.centre(), scale(sub(self.upper, self.lower), 0.5));
@@ -109,8 +109,8 @@ impl Mesh {
     /// the sizes of the box.
     fn enclosing_size(&self, kind: i32) -> Option<Vec3> {
         let middle = self.centre();
-        let largest = |of: &dyn Fn(Vec3) -> f64| {
-            self.shape.vert.iter().fold(0.0_f64, |largest, &v| largest.max(of(sub(v, middle))))
+        let largest = |distance: &dyn Fn(Vec3) -> f64| {
+            self.shape.vert.iter().fold(0.0_f64, |largest, &v| largest.max(distance(sub(v, middle))))
         };
         let across = |[x, y, _]: Vec3| libm::sqrt(x * x + y * y);
         Some(match kind {
@@ -141,7 +141,7 @@ pub(crate) fn triangle([a, b, c]: [Vec3; 3]) -> (f64, Vec3, Vec3) {
 
 /// An error in a mesh or height field, and what to do about it.
 #[derive(Debug)]
-pub(crate) struct Problem {
+pub(crate) struct AssetProblem {
     /// The attribute that contains the error.
     pub(crate) attribute: &'static str,
     /// The end of a sentence that starts with the asset.
@@ -150,19 +150,19 @@ pub(crate) struct Problem {
     pub(crate) help: &'static str,
 }
 
-impl Problem {
+impl AssetProblem {
     pub(crate) fn new(
         attribute: &'static str,
         message: impl Into<String>,
         why: &'static str,
         help: &'static str,
-    ) -> Problem {
-        Problem { attribute, message: message.into(), why, help }
+    ) -> AssetProblem {
+        AssetProblem { attribute, message: message.into(), why, help }
     }
 
     /// A problem with the contents of a file.
-    pub(crate) fn file(message: impl Into<String>, help: &'static str) -> Problem {
-        Problem::new("file", message, "", help)
+    pub(crate) fn file(message: impl Into<String>, help: &'static str) -> AssetProblem {
+        AssetProblem::new("file", message, "", help)
     }
 }
 
@@ -171,14 +171,14 @@ const MSH: &str = "model/vnd.mujoco.msh";
 
 /// Reads a mesh from the bytes of a file. The extension of the file name determines the format. The `content_type` of MuJoCo's
 /// format takes precedence, other content types have no effect, as in MuJoCo 3.14.0 (measured).
-pub(crate) fn decode(path: &str, content_type: &str, bytes: &[u8]) -> Result<Raw, Problem> {
+pub(crate) fn decode(path: &str, content_type: &str, bytes: &[u8]) -> Result<Raw, AssetProblem> {
     let ending = path.rsplit_once('.').map_or("", |(_, ending)| ending).to_ascii_lowercase();
     let ending = if content_type == MSH { "msh" } else { ending.as_str() };
     match ending {
         "stl" => stl::read(bytes),
         "obj" => obj::read(bytes),
         "msh" => msh::read(bytes),
-        _ => Err(Problem::file(
+        _ => Err(AssetProblem::file(
             "has a file whose name does not end in .obj, .stl or .msh",
             "export the mesh as Wavefront OBJ or as binary STL",
         )),

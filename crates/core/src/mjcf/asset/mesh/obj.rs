@@ -5,12 +5,12 @@
 
 use super::triangulate;
 use crate::math::Vec3;
-use crate::mjcf::asset::mesh::{MAX_FACES, MAX_VERTICES, Problem, Raw};
+use crate::mjcf::asset::mesh::{AssetProblem, MAX_FACES, MAX_VERTICES, Raw};
 
 /// The largest number of corners of a polygon.
 const MAX_CORNERS: usize = 1000;
 
-pub(super) fn read(bytes: &[u8]) -> Result<Raw, Problem> {
+pub(super) fn read(bytes: &[u8]) -> Result<Raw, AssetProblem> {
     let mut raw = Raw::default();
     // The polygons of the current group.
     let mut polygons: Vec<Vec<Corner>> = Vec::new();
@@ -43,7 +43,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raw, Problem> {
             _ => {}
         }
         if raw.vert.len() > MAX_VERTICES || raw.normal.len() > MAX_FACES || polygons.len() > MAX_FACES {
-            return Err(Problem::file(
+            return Err(AssetProblem::file(
                 format!("has an OBJ file of more than {MAX_VERTICES} vertices or {MAX_FACES} polygons"),
                 "simplify the mesh: only its convex hull makes contacts",
             ));
@@ -54,13 +54,13 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raw, Problem> {
 }
 
 /// Divides polygons into the triangles of a mesh.
-fn add_triangles(raw: &mut Raw, polygons: &[Vec<Corner>]) -> Result<(), Problem> {
+fn add_triangles(raw: &mut Raw, polygons: &[Vec<Corner>]) -> Result<(), AssetProblem> {
     for corners in polygons {
         let mut places: Vec<Vec3> = Vec::with_capacity(corners.len());
         for c in corners {
             // A face may refer to a vertex that is defined after it, so the check is done at the end of the file.
             let Some(&place) = raw.vert.get(c[0] as usize) else {
-                return Err(Problem::file(
+                return Err(AssetProblem::file(
                     format!(
                         "has a face with vertex {} in its OBJ file, which has {} vertices",
                         c[0] + 1,
@@ -72,13 +72,13 @@ fn add_triangles(raw: &mut Raw, polygons: &[Vec<Corner>]) -> Result<(), Problem>
             places.push(place);
         }
         for triangle in triangulate::triangles(&places) {
-            let of = |what: usize| triangle.map(|k| corners.get(k).map_or(-1, |c| c[what]));
-            raw.face.push(of(0));
+            let indexes = |what: usize| triangle.map(|k| corners.get(k).map_or(-1, |c| c[what]));
+            raw.face.push(indexes(0));
             if !raw.texcoord.is_empty() {
-                raw.facetexcoord.push(of(1));
+                raw.facetexcoord.push(indexes(1));
             }
             if !raw.normal.is_empty() {
-                raw.facenormal.push(of(2));
+                raw.facenormal.push(indexes(2));
             }
         }
     }
@@ -127,10 +127,10 @@ fn numbers<'w, const N: usize>(words: &mut impl Iterator<Item = &'w str>) -> Res
 }
 
 #[cold]
-fn wrong(text: &str, number: usize, what: String) -> Problem {
+fn wrong(text: &str, number: usize, what: String) -> AssetProblem {
     let start: usize = text.split(['\n', '\r']).take(number).map(|line| line.len() + 1).sum();
     let line = text.get(..start).map_or(0, |before| before.lines().count()) + 1;
-    Problem::file(
+    AssetProblem::file(
         format!("has {what} in line {line} of its OBJ file"),
         "export the mesh again, with decimal points in numbers",
     )

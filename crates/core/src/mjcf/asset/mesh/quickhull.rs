@@ -20,7 +20,7 @@ const NONE: u32 = u32::MAX;
 
 /// The convex hull of some points.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Hull {
+pub(crate) struct ConvexHull {
     /// The indexes of the points at the corners, ascending.
     pub(crate) vertex: Vec<u32>,
     /// The indexes of the points at the corners of each triangle, counterclockwise from outside. Flat faces with more corners are
@@ -41,9 +41,9 @@ pub(crate) enum Flat {
     Endless,
 }
 
-impl Hull {
+impl ConvexHull {
     /// The hull of finite points. If `most` is given, it has at most this many corners: those farthest outside are added first.
-    pub(crate) fn from_points(points: &[Vec3], most: Option<usize>) -> Result<Hull, Flat> {
+    pub(crate) fn from_points(points: &[Vec3], most: Option<usize>) -> Result<ConvexHull, Flat> {
         let mut growing = PartialHull::new(points)?;
         growing.add_farthest_points(most.unwrap_or(usize::MAX))?;
         Ok(growing.finish())
@@ -78,7 +78,7 @@ type Point = [i64; 3];
 
 /// A plane through a grid point. Points above it are outside.
 #[derive(Clone, Copy, Debug)]
-struct Plane {
+struct HullPlane {
     at: Point,
     normal: [i128; 3],
     /// The length of the normal, in world units.
@@ -86,11 +86,11 @@ struct Plane {
 }
 
 #[derive(Debug)]
-struct Face {
+struct HullFace {
     corner: [u32; 3],
     /// The adjacent faces at the edges from each corner to the next.
     beyond: [u32; 3],
-    plane: Plane,
+    plane: HullPlane,
     /// The points above this face that are above no earlier face. The highest is the last.
     above: Vec<u32>,
     is_on_hull: bool,
@@ -100,7 +100,7 @@ struct PartialHull {
     points: Vec<Point>,
     /// Grid steps per unit of the world.
     steps: Vec3,
-    faces: Vec<Face>,
+    faces: Vec<HullFace>,
     corners: usize,
     /// Faces with points above them, ordered by the height of the highest point.
     open: BinaryHeap<(u64, std::cmp::Reverse<u32>)>,
@@ -110,7 +110,7 @@ struct PartialHull {
 }
 
 impl PartialHull {
-    /// Starts with a tetrahedron of points that are far apart.
+    /// Starts with a tetrahedron of distant points.
     fn new(points: &[Vec3]) -> Result<PartialHull, Flat> {
         let (points, steps) = on_grid(points);
         let indices = || 0..points.len() as u32;
@@ -156,19 +156,19 @@ impl PartialHull {
         self.points.get(i as usize).copied().unwrap_or_default()
     }
 
-    fn face(&self, i: u32) -> Option<&Face> {
+    fn face(&self, i: u32) -> Option<&HullFace> {
         self.faces.get(i as usize)
     }
 
-    fn plane_of(&self, [a, b, c]: [Point; 3]) -> Plane {
+    fn plane_of(&self, [a, b, c]: [Point; 3]) -> HullPlane {
         let normal = normal(a, b, c);
         let length = (0..3).map(|i| normal[i] as f64 * self.steps[i]).map(|x| x * x).sum::<f64>();
-        Plane { at: a, normal, length: libm::sqrt(length) }
+        HullPlane { at: a, normal, length: libm::sqrt(length) }
     }
 
     fn add(&mut self, corner: [u32; 3], beyond: [u32; 3]) {
         let plane = self.plane_of(corner.map(|i| self.point(i)));
-        self.faces.push(Face { corner, beyond, plane, above: Vec::new(), is_on_hull: true });
+        self.faces.push(HullFace { corner, beyond, plane, above: Vec::new(), is_on_hull: true });
     }
 
     /// Assigns each point to the first face, from index `first` on, that it is above. Points above no face are inside.
@@ -298,7 +298,7 @@ impl PartialHull {
     }
 
     /// Merges coplanar triangles into one flat face. A corner is a point where three or more flat faces meet.
-    fn finish(self) -> Hull {
+    fn finish(self) -> ConvexHull {
         // The flat face to which each triangle belongs.
         let mut side: Vec<u32> = vec![NONE; self.faces.len()];
         let mut sides = 0;
@@ -311,7 +311,7 @@ impl PartialHull {
             let mut stack = vec![start];
             while let Some(i) = stack.pop() {
                 for next in self.faces[i].beyond.map(|b| b as usize) {
-                    let flat = |f: &Face| f.corner.iter().all(|&c| plane.height(self.point(c)) == 0);
+                    let flat = |f: &HullFace| f.corner.iter().all(|&c| plane.height(self.point(c)) == 0);
                     if side.get(next) == Some(&NONE) && self.faces.get(next).is_some_and(flat) {
                         side[next] = sides;
                         stack.push(next);
@@ -352,11 +352,11 @@ impl PartialHull {
         }
         order::sort_by(&mut face, Ord::cmp);
         let vertex = listed((0..meet.len() as u32).filter(|&v| is_corner(v)));
-        Hull { vertex, face }
+        ConvexHull { vertex, face }
     }
 }
 
-impl Plane {
+impl HullPlane {
     /// The height of a point above the plane, multiplied by the length of the normal, in grid units.
     fn height(&self, p: Point) -> i128 {
         (0..3).map(|i| self.normal[i] * i128::from(p[i] - self.at[i])).sum()
@@ -386,7 +386,7 @@ mod tests {
     use proptest::prelude::*;
 
     /// Checks that a hull is closed, convex and contains all points, and has the number of triangles of Euler's formula.
-    fn check_hull(points: &[Vec3], hull: &Hull, whole: bool) {
+    fn check_hull(points: &[Vec3], hull: &ConvexHull, whole: bool) {
         let (v, f) = (hull.vertex.len(), hull.face.len());
         assert_eq!(f, 2 * v - 4);
         let mut edges: Vec<(i32, i32)> =
@@ -416,7 +416,7 @@ mod tests {
     fn points_on_sides_and_edges_are_no_corners() {
         for n in 1..6 {
             let points = cube(n);
-            let hull = Hull::from_points(&points, None).unwrap();
+            let hull = ConvexHull::from_points(&points, None).unwrap();
             assert_eq!((hull.vertex.len(), hull.face.len()), (8, 12), "{n}");
             check_hull(&points, &hull, true);
         }
@@ -424,11 +424,11 @@ mod tests {
 
     #[test]
     fn flat_clouds_are_reported() {
-        assert_eq!(Hull::from_points(&[], None), Err(Flat::Point));
-        assert_eq!(Hull::from_points(&[[1.0; 3]; 9], None), Err(Flat::Point));
-        assert_eq!(Hull::from_points(&[[0.0; 3], [1.0; 3], [2.0; 3], [0.5; 3]], None), Err(Flat::Line));
+        assert_eq!(ConvexHull::from_points(&[], None), Err(Flat::Point));
+        assert_eq!(ConvexHull::from_points(&[[1.0; 3]; 9], None), Err(Flat::Point));
+        assert_eq!(ConvexHull::from_points(&[[0.0; 3], [1.0; 3], [2.0; 3], [0.5; 3]], None), Err(Flat::Line));
         let flat: Vec<Vec3> = cube(3).into_iter().map(|[x, y, _]| [x, y, x + 0.5 * y]).collect();
-        assert_eq!(Hull::from_points(&flat, None), Err(Flat::Plane));
+        assert_eq!(ConvexHull::from_points(&flat, None), Err(Flat::Plane));
     }
 
     #[test]
@@ -440,11 +440,11 @@ mod tests {
                 [r * a.cos(), r * a.sin(), h]
             })
             .collect();
-        let whole = Hull::from_points(&points, None).unwrap();
+        let whole = ConvexHull::from_points(&points, None).unwrap();
         assert_eq!(whole.vertex.len(), 500);
         check_hull(&points, &whole, true);
         for most in [4, 5, 20, 100] {
-            let hull = Hull::from_points(&points, Some(most)).unwrap();
+            let hull = ConvexHull::from_points(&points, Some(most)).unwrap();
             assert_eq!(hull.vertex.len(), most);
             check_hull(&points, &hull, false);
         }
@@ -452,9 +452,11 @@ mod tests {
 
     #[test]
     fn graphs_list_neighbours() {
-        let hull =
-            Hull::from_points(&[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.1; 3]], None)
-                .unwrap();
+        let hull = ConvexHull::from_points(
+            &[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.1; 3]],
+            None,
+        )
+        .unwrap();
         assert_eq!(
             hull.graph(),
             [
@@ -470,9 +472,9 @@ mod tests {
         #[test]
         fn degenerate_clouds_have_hulls(points in prop::collection::vec(prop::array::uniform3(-3..4_i32), 4..60)) {
             let points: Vec<Vec3> = points.into_iter().map(|p| p.map(|x| f64::from(x) * 0.1)).collect();
-            if let Ok(hull) = Hull::from_points(&points, None) {
+            if let Ok(hull) = ConvexHull::from_points(&points, None) {
                 check_hull(&points, &hull, true);
-                prop_assert_eq!(&Hull::from_points(&points, None).unwrap(), &hull);
+                prop_assert_eq!(&ConvexHull::from_points(&points, None).unwrap(), &hull);
             }
         }
 
@@ -483,7 +485,7 @@ mod tests {
         ) {
             let points: Vec<Vec3> =
                 points.into_iter().map(|p| [0, 1, 2].map(|i| f64::from(p[i]) * 2f64.powi(stretch[i]))).collect();
-            if let Ok(hull) = Hull::from_points(&points, None) {
+            if let Ok(hull) = ConvexHull::from_points(&points, None) {
                 prop_assert_eq!(hull.face.len(), 2 * hull.vertex.len() - 4);
             }
         }

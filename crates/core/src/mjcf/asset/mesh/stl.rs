@@ -3,7 +3,7 @@
 
 use std::collections::HashMap;
 
-use crate::mjcf::asset::mesh::{Bytes, MAX_FACES, Problem, Raw};
+use crate::mjcf::asset::mesh::{AssetProblem, Bytes, MAX_FACES, Raw};
 
 const HEAD: usize = 84;
 const TRIANGLE: usize = 50;
@@ -11,31 +11,31 @@ const TRIANGLE: usize = 50;
 const FARTHEST: f64 = (1u64 << 30) as f64;
 
 /// Reads a mesh. Corners at the same position become one vertex, in the order of their first occurrence.
-pub(super) fn read(bytes: &[u8]) -> Result<Raw, Problem> {
+pub(super) fn read(bytes: &[u8]) -> Result<Raw, AssetProblem> {
     if bytes.is_empty() {
-        return Err(Problem::file("has an empty file", "export the mesh again"));
+        return Err(AssetProblem::file("has an empty file", "export the mesh again"));
     }
     if bytes.trim_ascii_start().starts_with(b"solid") && !fits(bytes) {
-        return Err(Problem::file(
+        return Err(AssetProblem::file(
             "has an STL file in text form",
             "export it as binary STL: MuJoCo reads only that",
         ));
     }
     if bytes.len() < HEAD {
-        return Err(Problem::file(
+        return Err(AssetProblem::file(
             format!("has an STL file of {} bytes, shorter than its header of {HEAD}", bytes.len()),
             "export the mesh again: the file is truncated",
         ));
     }
     let count = count(bytes).unwrap_or(0);
     if !(1..=MAX_FACES).contains(&count) {
-        return Err(Problem::file(
+        return Err(AssetProblem::file(
             format!("has an STL file of {count} triangles"),
             "export the mesh again, as binary STL with 1 to 2000000 triangles",
         ));
     }
     if !fits(bytes) {
-        return Err(Problem::file(
+        return Err(AssetProblem::file(
             format!(
                 "has an STL file of {} bytes, but {count} triangles need {}",
                 bytes.len(),
@@ -53,7 +53,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raw, Problem> {
         for corner in &mut face {
             let v = numbers.reals::<3>().unwrap_or_default();
             if !v.iter().all(|x| x.abs() <= FARTHEST) {
-                return Err(Problem::file(
+                return Err(AssetProblem::file(
                     format!("has a corner at {} {} {}", v[0], v[1], v[2]),
                     "export the mesh again: a coordinate is too large or not a number",
                 ));

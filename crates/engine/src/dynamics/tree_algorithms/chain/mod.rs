@@ -17,10 +17,10 @@ mod spatial;
 #[cfg(test)]
 mod tests;
 
-use super::{Assignment, Forces, NOTHING, Row};
+use super::{AlgorithmRow, Assignment, Forces, NOTHING};
 pub(super) use planar::plane_of;
 
-use crate::dynamics::{Scratch, mass, walk};
+use crate::dynamics::{DynamicsScratch, mass, walk};
 use crate::kinds::joint;
 use crate::math::*;
 use crate::model::reflect::{FieldId, model as fields_of};
@@ -29,7 +29,7 @@ use crate::model::{Fields, Model};
 /// Maximum number of degrees of freedom. For larger trees, composite bodies and recursion are faster.
 const MAX_DOFS: usize = 6;
 
-pub(super) const ROW: Row = Row {
+pub(super) const ROW: AlgorithmRow = AlgorithmRow {
     name: "chain",
     covers,
     copies: &COPIES,
@@ -63,7 +63,7 @@ pub(super) const COPIES: [FieldId; 12] = [
 /// The links of all short chains, chain by chain, each starting at its root.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Trees {
-    links: Vec<Link>,
+    links: Vec<ChainLink>,
     /// Number of links of each chain.
     lengths: Vec<usize>,
     /// Bodies that belong to a link, or that carry one and cannot move. Parents come first.
@@ -72,7 +72,7 @@ pub(super) struct Trees {
 
 /// The bodies that move with one joint.
 #[derive(Clone, Debug, Default, PartialEq)]
-struct Link {
+struct ChainLink {
     joint: usize,
     dof: usize,
     /// Index of its coordinate in `qpos`.
@@ -81,20 +81,20 @@ struct Link {
     row: usize,
     slides: bool,
     /// Parameters from the model: see `load`.
-    fixed: Fixed,
+    fixed: LinkParameters,
     /// Whether the chain moves in a plane. If so, the next field holds the parameters in the plane.
     planar: bool,
-    flat: planar::Fixed,
+    flat: planar::PlanarLinkParameters,
     swing: planar::Swing,
     /// Its current pose, for spatial chains.
-    pose: Pose,
+    pose: LinkPose,
     /// w_k and u_k of each degree of freedom that moves it, starting at the root.
     columns: [(Vec3, Vec3); MAX_DOFS],
 }
 
 /// Parameters of a link from the model.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Fixed {
+pub(super) struct LinkParameters {
     /// Pose of its frame in that of its parent, in the default configuration.
     pub(super) at: Vec3,
     pub(super) turn: Mat3,
@@ -109,7 +109,7 @@ pub(super) struct Fixed {
     inertia: [f64; 6],
 }
 
-impl Fixed {
+impl LinkParameters {
     /// The moment of inertia about an axis through the centre of mass.
     pub(super) fn moment(&self, n: Vec3) -> f64 {
         let [xx, yy, zz, xy, xz, yz] = self.inertia;
@@ -120,7 +120,7 @@ impl Fixed {
 
 /// Frame, joint axis and centre of mass of a link, world frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Pose {
+struct LinkPose {
     anchor: Vec3,
     axes: Mat3,
     axis: Vec3,
@@ -129,7 +129,7 @@ struct Pose {
 
 /// Angular velocity and acceleration, and the acceleration of the anchor, for zero joint accelerations.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Motion {
+struct LinkMotion {
     velocity: Vec3,
     turning: Vec3,
     acceleration: Vec3,
@@ -184,13 +184,13 @@ impl Trees {
                     Some(length) if link.is_some() => *length += 1,
                     _ => chains.lengths.push(1),
                 }
-                chains.links.push(Link {
+                chains.links.push(ChainLink {
                     joint,
                     dof,
                     coordinate: m.jnt_qposadr[joint] as usize,
                     row: m.M_rowadr[dof] as usize,
                     slides: m.jnt_type[joint] == joint::SLIDE,
-                    ..Link::default()
+                    ..ChainLink::default()
                 });
                 link = Some(chains.links.len() - 1);
             }
@@ -202,7 +202,7 @@ impl Trees {
     }
 
     /// The parameters of each link, and the index of its coordinate in `qpos`.
-    pub(super) fn parameters(&self) -> impl Iterator<Item = (&Fixed, usize)> {
+    pub(super) fn parameters(&self) -> impl Iterator<Item = (&LinkParameters, usize)> {
         self.links.iter().map(|link| (&link.fixed, link.coordinate))
     }
 
@@ -263,7 +263,7 @@ impl Trees {
 
 /// The number of links of a chain: the constant N, or the actual length if N is 0.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn length<const N: usize>(chain: &[Link]) -> usize {
+fn length<const N: usize>(chain: &[ChainLink]) -> usize {
     if N == 0 { chain.len().min(MAX_DOFS) } else { N }
 }
 
@@ -297,12 +297,12 @@ macro_rules! by_length {
 }
 
 /// Computes the rows of M of short chains.
-fn mass(_: &Model, d: &mut Fields, w: &mut Scratch) {
+fn mass(_: &Model, d: &mut Fields, w: &mut DynamicsScratch) {
     by_length!(w.algorithms.chain, mass_matrix(&d.qpos, &mut d.M));
 }
 
 /// Computes the bias force of short chains.
 #[inline(never)] // so that scenes without such chains do not execute its setup code
-fn bias(_: &Model, d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
+fn bias(_: &Model, d: &mut Fields, w: &mut DynamicsScratch, gravity: Vec3) {
     by_length!(w.algorithms.chain, bias(&d.qvel, &mut d.qfrc_bias, gravity));
 }

@@ -3,7 +3,7 @@
 //! Angular velocities are scalars. With zero joint accelerations, all angular accelerations are zero, and the
 //! gyroscopic torque has no component along the normal of the plane.
 
-use super::{Link, MAX_DOFS, length};
+use super::{ChainLink, MAX_DOFS, length};
 use crate::math::broken_invariant;
 use crate::math::{EYE, Mat3, Vec3, column, cross, dot, mat_mul, mat_mul_vec, normalize, scale};
 
@@ -11,7 +11,7 @@ type Vec2 = [f64; 2];
 
 /// Parameters of a link from the model, in the axes of the plane, in the default configuration.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Fixed {
+pub(super) struct PlanarLinkParameters {
     /// Vector from the anchor of the previous link to its anchor.
     at: Vec2,
     /// Direction of a slide.
@@ -39,7 +39,7 @@ pub(super) struct Swing {
 const FLAT: f64 = 1e-12;
 
 /// Determines whether a chain is planar, and its parameters.
-pub(super) fn load(chain: &mut [Link]) {
+pub(super) fn load(chain: &mut [ChainLink]) {
     let mut all = [(EYE, [0.0; 3]); MAX_DOFS];
     // Longer chains are those of `planar_chain`, which has separate parameters.
     let Some(axes) = all.get_mut(..chain.len()) else { return };
@@ -60,7 +60,7 @@ pub(super) fn load(chain: &mut [Link]) {
     };
     let plane = plane_of(normal);
     let flat = |v: Vec3| [dot(plane[0], v), dot(plane[1], v)];
-    let fits = |(link, (_, axis)): (&Link, &(Mat3, Vec3))| {
+    let fits = |(link, (_, axis)): (&ChainLink, &(Mat3, Vec3))| {
         let along = dot(*axis, normal).abs();
         if link.slides { along < FLAT } else { (along - 1.0).abs() < FLAT }
     };
@@ -70,7 +70,7 @@ pub(super) fn load(chain: &mut [Link]) {
         let [xx, yy, zz, xy, xz, yz] = link.fixed.inertia;
         let n = [dot(normal, column(turn, 0)), dot(normal, column(turn, 1)), dot(normal, column(turn, 2))];
         link.planar = planar;
-        link.flat = Fixed {
+        link.flat = PlanarLinkParameters {
             at: flat(mat_mul_vec(&above, link.fixed.at)),
             axis: flat(*axis),
             sense: if link.slides { 0.0 } else { dot(*axis, normal).round() },
@@ -122,7 +122,7 @@ impl Swing {
 }
 
 /// Computes the rows of M of a chain.
-pub(super) fn mass_matrix<const N: usize>(chain: &mut [Link], qpos: &[f64], mass: &mut [f64]) {
+pub(super) fn mass_matrix<const N: usize>(chain: &mut [ChainLink], qpos: &[f64], mass: &mut [f64]) {
     let n = length::<N>(chain);
     let Some(chain) = chain.get_mut(..n) else {
         return broken_invariant("a chain is as long as its length");
@@ -132,7 +132,7 @@ pub(super) fn mass_matrix<const N: usize>(chain: &mut [Link], qpos: &[f64], mass
     let mut angle = 0.0;
     let mut swings = [up; MAX_DOFS];
     for i in 0..n {
-        let Link { flat, fixed, swing, coordinate, .. } = &mut chain[i];
+        let ChainLink { flat, fixed, swing, coordinate, .. } = &mut chain[i];
         let displacement = qpos[*coordinate] - fixed.reference;
         let at = if i == 0 { flat.at } else { up.rotated(flat.at) };
         let mut here = Swing { anchor: [up.anchor[0] + at[0], up.anchor[1] + at[1]], ..up };
@@ -180,7 +180,12 @@ fn shift(sense: f64, joint: &Swing, point: Vec2) -> Vec2 {
 }
 
 /// Computes the bias force of a chain.
-pub(super) fn bias<const N: usize>(chain: &mut [Link], qvel: &[f64], qfrc_bias: &mut [f64], gravity: Vec3) {
+pub(super) fn bias<const N: usize>(
+    chain: &mut [ChainLink],
+    qvel: &[f64],
+    qfrc_bias: &mut [f64],
+    gravity: Vec3,
+) {
     let n = length::<N>(chain);
     let Some(chain) = chain.get_mut(..n) else {
         return broken_invariant("a chain is as long as its length");
@@ -195,7 +200,7 @@ pub(super) fn bias<const N: usize>(chain: &mut [Link], qvel: &[f64], qfrc_bias: 
     let mut turning = 0.0;
     let mut forces = [0.0; MAX_DOFS];
     for i in 0..n {
-        let Link { flat, fixed, swing, .. } = &chain[i];
+        let ChainLink { flat, fixed, swing, .. } = &chain[i];
         if i > 0 {
             let above = chain[i - 1].swing.anchor;
             let centripetal = turning * turning;

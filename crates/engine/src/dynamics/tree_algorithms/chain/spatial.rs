@@ -1,11 +1,11 @@
 //! Short chains in space.
 
-use super::{Link, MAX_DOFS, Motion, Pose, length};
+use super::{ChainLink, LinkMotion, LinkPose, MAX_DOFS, length};
 use crate::math::lanes::rotate_columns;
 use crate::math::*;
 
 /// Computes the rows of M of a chain.
-pub(super) fn mass_matrix<const N: usize>(chain: &mut [Link], qpos: &[f64], mass: &mut [f64]) {
+pub(super) fn mass_matrix<const N: usize>(chain: &mut [ChainLink], qpos: &[f64], mass: &mut [f64]) {
     let n = length::<N>(chain);
     let Some(chain) = chain.get_mut(..n) else {
         return broken_invariant("a chain is as long as its length");
@@ -29,7 +29,7 @@ pub(super) fn mass_matrix<const N: usize>(chain: &mut [Link], qpos: &[f64], mass
                 (turn, cross(up.pose.axis, sub(pose.com, up.pose.anchor)))
             };
         }
-        let Link { fixed, columns, .. } = &chain[i];
+        let ChainLink { fixed, columns, .. } = &chain[i];
         for k in 0..=i {
             let (turn, shift) = columns[k];
             let (spin, push) = (rotational_inertia_times(&fixed.inertia, turn), scale(shift, fixed.mass));
@@ -45,10 +45,10 @@ pub(super) fn mass_matrix<const N: usize>(chain: &mut [Link], qpos: &[f64], mass
     }
 }
 
-impl Link {
+impl ChainLink {
     /// Computes the pose for the coordinate q of the joint.
     #[cfg_attr(not(feature = "small"), inline(always))]
-    fn forward_kinematics(&mut self, parent: Option<&Pose>, q: f64) {
+    fn forward_kinematics(&mut self, parent: Option<&LinkPose>, q: f64) {
         let (f, pose) = (&self.fixed, &mut self.pose);
         match parent {
             None => (pose.anchor, pose.axes) = (f.at, f.turn),
@@ -70,7 +70,12 @@ impl Link {
 }
 
 /// Computes the bias force of a chain.
-pub(super) fn bias<const N: usize>(chain: &mut [Link], qvel: &[f64], qfrc_bias: &mut [f64], gravity: Vec3) {
+pub(super) fn bias<const N: usize>(
+    chain: &mut [ChainLink],
+    qvel: &[f64],
+    qfrc_bias: &mut [f64],
+    gravity: Vec3,
+) {
     let n = length::<N>(chain);
     let Some(chain) = chain.get_mut(..n) else {
         return broken_invariant("a chain is as long as its length");
@@ -81,9 +86,9 @@ pub(super) fn bias<const N: usize>(chain: &mut [Link], qvel: &[f64], qfrc_bias: 
     };
     let mut forces = [0.0; MAX_DOFS];
     // Gravity is included as an upward acceleration of the world.
-    let mut motion = Motion { acceleration: scale(gravity, -1.0), ..Motion::default() };
+    let mut motion = LinkMotion { acceleration: scale(gravity, -1.0), ..LinkMotion::default() };
     for i in 0..n {
-        let Link { fixed, pose, columns, slides, .. } = &chain[i];
+        let ChainLink { fixed, pose, columns, slides, .. } = &chain[i];
         let rate = scale(pose.axis, v[i]);
         if i > 0 {
             motion.acceleration = motion.at(sub(pose.anchor, chain[i - 1].pose.anchor));
@@ -108,7 +113,7 @@ pub(super) fn bias<const N: usize>(chain: &mut [Link], qvel: &[f64], qfrc_bias: 
     out.copy_from_slice(&forces[..n]);
 }
 
-impl Motion {
+impl LinkMotion {
     /// The acceleration of a point at `arm` from the anchor.
     #[cfg_attr(not(feature = "small"), inline(always))]
     fn at(&self, arm: Vec3) -> Vec3 {

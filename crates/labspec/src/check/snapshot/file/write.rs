@@ -110,7 +110,7 @@ fn quoted(text: &str) -> String {
 
 /// Writes columns: names aligned to the left, numbers to the right.
 fn table(rows: &[(String, Vec<String>)], text: &mut String) {
-    let width = |of: &str| of.chars().count();
+    let width = |text: &str| text.chars().count();
     let names = rows.iter().map(|(name, _)| width(name)).max().unwrap_or(0);
     let columns = rows.iter().map(|(_, cells)| cells.len()).max().unwrap_or(0);
     let widest = |k: usize| rows.iter().filter_map(|(_, cells)| cells.get(k)).map(|c| width(c)).max();
