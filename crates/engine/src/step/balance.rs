@@ -37,7 +37,7 @@ pub fn mechanical_energy(m: &Model, d: &mut Fields, s: &mut StepScratch) -> Opti
 }
 
 /// Like [`mechanical_energy`], for the poses and lengths at hand.
-pub fn energy_of_poses(m: &Model, d: &mut Fields, s: &mut Scratch) -> Option<Energy> {
+pub fn energy_of_poses(m: &Model, d: &mut Fields, s: &mut StepScratch) -> Option<Energy> {
     let mut gravity = 0.0;
     if !m.opt.disabled(disable::GRAVITY) {
         for (b, &x) in rows::<3>(&d.xipos).iter().enumerate().skip(1) {
