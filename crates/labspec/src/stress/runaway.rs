@@ -27,6 +27,8 @@ const MAX_SAMPLES: usize = 256;
 #[derive(Debug)]
 pub(super) struct RunawayMonitor {
     start: f64,
+    /// Degrees of freedom: translations and rotations.
+    dofs: [Vec<usize>; 2],
     /// Times, and the largest speeds so far: of translations and of rotations.
     memory: RunHistory<(f64, [f64; 2])>,
     largest: [f64; 2],
@@ -38,16 +40,22 @@ pub(super) struct RunawayMonitor {
     sure: Option<(f64, usize, f64, f64)>,
 }
 
-impl Default for RunawayMonitor {
-    fn default() -> RunawayMonitor {
-        let memory = RunHistory::new(CALLS_PER_SAMPLE, MAX_SAMPLES);
-        RunawayMonitor { start: 0.0, memory, largest: [0.0; 2], first: None, found: None, sure: None }
-    }
-}
-
 impl RunawayMonitor {
+    pub(super) fn new(m: &Model) -> RunawayMonitor {
+        let (translations, rotations) = (0..m.nv).partition(|&dof| slides(m, dof));
+        RunawayMonitor {
+            start: 0.0,
+            dofs: [translations, rotations],
+            memory: RunHistory::new(CALLS_PER_SAMPLE, MAX_SAMPLES),
+            largest: [0.0; 2],
+            first: None,
+            found: None,
+            sure: None,
+        }
+    }
+
     pub(super) fn restart(&mut self, m: &Model, time: f64) {
-        *self = RunawayMonitor { start: time, sure: self.unbounded_speed(m), ..RunawayMonitor::default() };
+        *self = RunawayMonitor { start: time, sure: self.unbounded_speed(m), ..RunawayMonitor::new(m) };
     }
 
     /// The speed that never stopped growing.
@@ -65,22 +73,7 @@ impl RunawayMonitor {
     }
 
     pub(super) fn observe(&mut self, m: &Model, d: &Fields) {
-        let mut current = [(0.0f64, 0usize); 2];
-        let mut compare = |dof: usize, kind: usize| {
-            let speed = d.qvel.get(dof).map_or(0.0, |v| v.abs());
-            if speed > current[kind].0 {
-                current[kind] = (speed, dof);
-            }
-        };
-        for (&joint, &first) in m.jnt_type.iter().zip(&m.jnt_dofadr) {
-            let first = first as usize;
-            match joint {
-                joint::SLIDE => compare(first, 0),
-                joint::HINGE => compare(first, 1),
-                joint::FREE => (0..6).for_each(|i| compare(first + i, usize::from(i >= 3))),
-                _ => (0..3).for_each(|i| compare(first + i, 1)),
-            }
-        }
+        let current = [0, 1].map(|kind| largest_speed(d, &self.dofs[kind]));
         let first = *self.first.get_or_insert([current[0].0, current[1].0]);
         for k in 0..2 {
             self.largest[k] = self.largest[k].max(current[k].0);
@@ -129,6 +122,18 @@ impl RunawayMonitor {
 fn expected_speeds(m: &Model) -> [f64; 2] {
     let (g, extent) = (norm(m.opt.gravity).max(1.0), m.stat.extent.max(1e-3));
     [(2.0 * g * extent).sqrt(), (2.0 * g / extent).sqrt() + 10.0]
+}
+
+/// The largest of the speeds of these degrees of freedom, and the one that has it.
+fn largest_speed(d: &Fields, dofs: &[usize]) -> (f64, usize) {
+    let mut largest = (0.0, 0);
+    for &dof in dofs {
+        let speed = d.qvel.get(dof).map_or(0.0, |v| v.abs());
+        if speed > largest.0 {
+            largest = (speed, dof);
+        }
+    }
+    largest
 }
 
 /// Whether a degree of freedom is a translation.

@@ -77,7 +77,7 @@ impl RunMonitor {
             pairs: pairs.into_iter().map(|geoms| PassingPair { geoms, before: None, done: false }).collect(),
             grounds: if jumps { Vec::new() } else { height_field::over(m, MOST_PAIRS) },
             touching: Vec::new(),
-            wild: RunawayMonitor::default(),
+            wild: RunawayMonitor::new(m),
             rest: CreepMonitor::default(),
             faults: Vec::new(),
             steps: 0,
