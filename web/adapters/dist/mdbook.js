@@ -84,7 +84,8 @@ function findFences(lines) {
   const fences = [];
   const open = { quotes: 0, items: [] };
   for (let i = 0; i < lines.length; ) {
-    const { quotes, rest } = unquote(lines[i] ?? "", Infinity);
+    const line = (lines[i] ?? "").replace(/\r$/, "");
+    const { quotes, rest } = unquote(line, Infinity);
     if (quotes !== open.quotes && rest.trim() !== "") Object.assign(open, { quotes, items: [] });
     const { column, text } = enterItems(rest, open);
     const hidden = endOfHidden(lines, i, text);
@@ -94,19 +95,26 @@ function findFences(lines) {
       continue;
     }
     const fence = readBody(lines, i, { quotes, indent: open.items.at(-1) ?? 0, column, marks: opening[1] ?? "" });
-    const head = (lines[i] ?? "").slice(0, (lines[i] ?? "").length - text.length);
+    const head = line.slice(0, line.length - text.length);
     fences.push({ ...fence, start: i, info: (opening[2] ?? "").trim(), prefix: "> ".repeat(quotes) + " ".repeat(open.items.at(-1) ?? 0), head });
     i = fence.end;
   }
   return fences;
 }
 function unquote(line, most) {
-  let [quotes, rest] = [0, line.replace(/\r$/, "").replaceAll("	", "    ")];
+  let [quotes, rest] = [0, expandTabs(line.replace(/\r$/, ""))];
   for (let mark = /^ {0,3}> ?/.exec(rest); mark !== null && quotes < most; mark = /^ {0,3}> ?/.exec(rest)) {
     rest = rest.slice(mark[0].length);
     quotes += 1;
   }
   return { quotes, rest };
+}
+function expandTabs(line) {
+  const before = /^[\s>+*.)\d-]*/.exec(line)?.[0] ?? "";
+  if (!before.includes("	")) return line;
+  let out = "";
+  for (const c of before) out += c === "	" ? " ".repeat(4 - out.length % 4) : c;
+  return out + line.slice(before.length);
 }
 function enterItems(rest, open) {
   let text = rest.trimStart();

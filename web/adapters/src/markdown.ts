@@ -29,7 +29,8 @@ export function findFences(lines: readonly string[]): TextFence[] {
   const fences: TextFence[] = [];
   const open: Containers = { quotes: 0, items: [] };
   for (let i = 0; i < lines.length; ) {
-    const { quotes, rest } = unquote(lines[i] ?? "", Infinity);
+    const line = (lines[i] ?? "").replace(/\r$/, "");
+    const { quotes, rest } = unquote(line, Infinity);
     if (quotes !== open.quotes && rest.trim() !== "") Object.assign(open, { quotes, items: [] });
     const { column, text } = enterItems(rest, open);
     const hidden = endOfHidden(lines, i, text);
@@ -39,7 +40,7 @@ export function findFences(lines: readonly string[]): TextFence[] {
       continue;
     }
     const fence = readBody(lines, i, { quotes, indent: open.items.at(-1) ?? 0, column, marks: opening[1] ?? "" });
-    const head = (lines[i] ?? "").slice(0, (lines[i] ?? "").length - text.length);
+    const head = line.slice(0, line.length - text.length);
     fences.push({ ...fence, start: i, info: (opening[2] ?? "").trim(), prefix: "> ".repeat(quotes) + " ".repeat(open.items.at(-1) ?? 0), head });
     i = fence.end;
   }
@@ -48,12 +49,21 @@ export function findFences(lines: readonly string[]): TextFence[] {
 
 /** A line without the marks of at most `most` quotes. */
 function unquote(line: string, most: number): { quotes: number; rest: string } {
-  let [quotes, rest] = [0, line.replace(/\r$/, "").replaceAll("\t", "    ")];
+  let [quotes, rest] = [0, expandTabs(line.replace(/\r$/, ""))];
   for (let mark = /^ {0,3}> ?/.exec(rest); mark !== null && quotes < most; mark = /^ {0,3}> ?/.exec(rest)) {
     rest = rest.slice(mark[0].length);
     quotes += 1;
   }
   return { quotes, rest };
+}
+
+/** A line with spaces for the tabs before its text: they reach to the next multiple of four columns. */
+function expandTabs(line: string): string {
+  const before = /^[\s>+*.)\d-]*/.exec(line)?.[0] ?? "";
+  if (!before.includes("\t")) return line;
+  let out = "";
+  for (const c of before) out += c === "\t" ? " ".repeat(4 - (out.length % 4)) : c;
+  return out + line.slice(before.length);
 }
 
 /** Leaves the list items that a line does not continue, and enters those that begin on it. */
