@@ -36,8 +36,12 @@ export function render({ model, el }: { model: WidgetModel; el: HTMLElement }): 
   const events = ["change:lab", "change:quiz", "change:models"];
   for (const event of events) model.on?.(event, update);
   return () => {
-    for (const event of events) model.off?.(event, update);
     element.remove();
+    try {
+      for (const event of events) model.off?.(event, update);
+    } catch {
+      // The model of MyST's themes throws: it has no way to remove a listener. The page drops it with the model.
+    }
   };
 }
 

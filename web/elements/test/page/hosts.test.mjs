@@ -68,12 +68,15 @@ test("the one file is a widget", async (t) => {
     const traitsOfMyst = { xml, readouts: json.readouts };
     widget.render({ model: { get: (name) => traitsOfMyst[name] }, el });
     await el.querySelector("sim-lab").ready;
+    const throws = () => { throw new Error("off is not implemented"); };
+    widget.render({ model: { get: (name) => traitsOfMyst[name], on: () => {}, off: throws }, el })();
+    const afterMyst = el.childElementCount;
     const quiz = { questions: [{ q: "?", options: ["a", "b"], answer: 0 }] };
     widget.render({ model: { get: (name) => ({ quiz })[name] }, el });
-    return { first, title, left: Object.keys(listeners).length, quiz: el.querySelectorAll("lesson-quiz").length };
+    return { first, title, left: Object.keys(listeners).length, afterMyst, quiz: el.querySelectorAll("lesson-quiz").length };
   }, [dropLab, drop]);
   assert.ok(Math.abs(result.first - 0.01) < 1e-12);
-  assert.deepEqual({ ...result, first: 0 }, { first: 0, title: "Another", left: 0, quiz: 1 });
+  assert.deepEqual({ ...result, first: 0 }, { first: 0, title: "Another", left: 0, afterMyst: 0, quiz: 1 });
   errors.none();
 });
 
