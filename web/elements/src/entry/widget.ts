@@ -45,8 +45,9 @@ export function render({ model, el }: { model: WidgetModel; el: HTMLElement }): 
   };
 }
 
+/** Whether a trait has a content: an empty object is the default of a trait that nobody has set. */
 function isGiven(x: unknown): boolean {
-  return x !== undefined && x !== null && x !== "";
+  return x !== undefined && x !== null && x !== "" && !(typeof x === "object" && Object.keys(x).length === 0);
 }
 
 function contentOf(model: WidgetModel, name: string, keys: readonly string[]): object | string {

@@ -65,7 +65,7 @@ test("the one file is a widget", async (t) => {
     await lab.ready;
     const title = lab.shadowRoot.querySelector("h3").textContent;
     leave();
-    const traitsOfMyst = { xml, readouts: json.readouts };
+    const traitsOfMyst = { xml, readouts: json.readouts, quiz: {} };
     widget.render({ model: { get: (name) => traitsOfMyst[name] }, el });
     await el.querySelector("sim-lab").ready;
     const throws = () => { throw new Error("off is not implemented"); };
