@@ -229,7 +229,7 @@ end
 local function model_paths(name)
   if settings.models then return { settings.models .. '/' .. name .. '.xml' } end
   local input = PANDOC_STATE.input_files[1]
-  local folder = input and pandoc.path.directory(input) or '.'
+  local folder = input and pandoc.path.make_relative(pandoc.path.directory(input), pandoc.system.get_working_directory()) or '.'
   local paths = { pandoc.path.join({ folder, 'models', name .. '.xml' }) }
   -- Above the lesson, up to the working directory.
   while not pandoc.path.is_absolute(folder) and folder ~= '.' and folder ~= '' do

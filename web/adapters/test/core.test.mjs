@@ -1,12 +1,12 @@
 // A fence becomes an element: its content, its models, and what stays a code block.
 import assert from "node:assert/strict";
-import { mkdirSync, mkdtempSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
+import { mkdirSync, mkdtempSync, readFileSync, rmSync, statSync, symlinkSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import test from "node:test";
 import { convertFence, createPage, elementHtml, fenceHtml, fenceKind } from "labspec-adapters";
 import { elementsOf, fences, hostileLab, HOSTILE, withoutClaims } from "./course.mjs";
-import { repository } from "./tools.mjs";
+import { repository, root, run } from "./tools.mjs";
 
 const specs = { root: repository, models: "specs/models" };
 
@@ -114,4 +114,14 @@ test("models are in the nearest folder beside or above the lesson, and never out
   assert.match(convert("folder", "c/lesson.md").message, /not a file/);
   assert.match(convert("m", "lesson.md", { models: "elsewhere" }).message, /the folder of models `elsewhere` does not exist/);
   assert.match(convert("m", join(folder, "lesson.md"), { root: join(root, "c/d") }).message, /no folder `models`/);
+});
+
+test("the tarball has what the package exports", () => {
+  const { stdout } = run("npm", ["pack", "--dry-run", "--json", "--silent"], { cwd: root });
+  const files = JSON.parse(stdout)[0].files.map(({ path }) => path);
+  const { exports, bin, dependencies } = JSON.parse(readFileSync(join(root, "package.json"), "utf8"));
+  const named = [...Object.values(exports).flatMap((each) => (typeof each === "string" ? [each] : Object.values(each))), ...Object.values(bin)];
+  for (const path of named) assert.ok(files.includes(path.replace(/^\.\//, "")), path);
+  assert.equal(dependencies, undefined);
+  for (const path of files.filter((each) => /^dist\/[^/]*js$/.test(each))) assert.ok(statSync(join(root, path)).size < 20_000, `${path} is small`);
 });
