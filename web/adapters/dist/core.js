@@ -193,7 +193,8 @@ function fenceHtml(info, text, page) {
   return `${messageHtml(converted.message)}<pre><code class="language-json">${escapeHtml(text)}</code></pre>`;
 }
 function messageHtml(message) {
-  return `<p class="labspec-message" role="note"><strong>${escapeHtml(message)}.</strong></p>`;
+  const text = escapeHtml(message).replace(/[{}]/g, (c) => `&#${c.charCodeAt(0)};`);
+  return `<p class="labspec-message" role="note"><strong>${text}.</strong></p>`;
 }
 export {
   convertFence,

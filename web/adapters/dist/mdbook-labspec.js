@@ -271,7 +271,8 @@ function slug(text) {
 
 // src/entry/core.ts
 function messageHtml(message) {
-  return `<p class="labspec-message" role="note"><strong>${escapeHtml(message)}.</strong></p>`;
+  const text = escapeHtml(message).replace(/[{}]/g, (c) => `&#${c.charCodeAt(0)};`);
+  return `<p class="labspec-message" role="note"><strong>${text}.</strong></p>`;
 }
 
 // src/entry/mdbook.ts

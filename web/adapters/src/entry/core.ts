@@ -17,7 +17,8 @@ export function fenceHtml(info: string, text: string, page: Page): string | null
   return `${messageHtml(converted.message)}<pre><code class="language-json">${escapeHtml(text)}</code></pre>`;
 }
 
-/** The message about a fence that stays a code block. */
+/** The message about a fence that stays a code block. It may quote the fence, whose braces mean nothing to a template of Vue either. */
 export function messageHtml(message: string): string {
-  return `<p class="labspec-message" role="note"><strong>${escapeHtml(message)}.</strong></p>`;
+  const text = escapeHtml(message).replace(/[{}]/g, (c) => `&#${c.charCodeAt(0)};`);
+  return `<p class="labspec-message" role="note"><strong>${text}.</strong></p>`;
 }

@@ -7,5 +7,5 @@ export { convertFence, createPage, type Converted, type Options, type Page } fro
  * `null` for a fence that is neither a lab nor a quiz.
  */
 export declare function fenceHtml(info: string, text: string, page: Page): string | null;
-/** The message about a fence that stays a code block. */
+/** The message about a fence that stays a code block. It may quote the fence, whose braces mean nothing to a template of Vue either. */
 export declare function messageHtml(message: string): string;
