@@ -75,7 +75,12 @@ export const jupyterlab = {
     await page.getByText("Python 3 (ipykernel) | Idle").waitFor({ timeout: 60_000 });
     await page.getByRole("menuitem", { name: "Run", exact: true }).click();
     await page.getByRole("menuitem", { name: "Run All Cells", exact: true }).click();
-    return { page, errors, versions: versions(t, "jupyterlab", "anywidget") };
+    // Cells outside of the window are not in the page.
+    const showQuiz = () => waitFor(async () => {
+      await page.locator(".jp-WindowedPanel-outer").evaluate((panel) => panel.scrollTo(0, panel.scrollHeight));
+      return (await page.locator("lesson-quiz").count()) > 0;
+    });
+    return { page, errors, showQuiz, versions: versions(t, "jupyterlab", "anywidget") };
   },
 };
 

@@ -41,13 +41,14 @@ async function trial(name) {
     copyFileSync(elements, join(folder, "labspec-elements.js"));
     const browser = await launch(t);
     t.open = (url) => open(browser, url);
-    const { page, errors, versions } = await host.try(t);
+    const { page, errors, versions, showQuiz } = await host.try(t);
     const screenshot = process.env.SCREENSHOTS === undefined ? null : join(process.env.SCREENSHOTS, `${name}.png`);
     if (screenshot !== null) t.after(() => page.screenshot({ path: screenshot }));
     // What the host reports before its first lab is its own.
     await page.locator("sim-lab").first().waitFor({ state: "attached", timeout: 90_000 });
     const before = errors.splice(0);
     const time = await playLab(page, 60_000);
+    await showQuiz?.();
     const { correct } = await answerQuiz(page, 60_000);
     const after = errors.splice(0);
     const passed = correct === true && after.length === 0;
