@@ -76,10 +76,14 @@ export const jupyterlab = {
     await page.getByRole("menuitem", { name: "Run", exact: true }).click();
     await page.getByRole("menuitem", { name: "Run All Cells", exact: true }).click();
     // Cells outside of the window are not in the page.
-    const showQuiz = () => waitFor(async () => {
-      await page.locator(".jp-WindowedPanel-outer").evaluate((panel) => panel.scrollTo(0, panel.scrollHeight));
-      return (await page.locator("lesson-quiz").count()) > 0;
-    });
+    const showQuiz = async () => {
+      await page.locator(".jp-WindowedPanel-outer").hover({ position: { x: 20, y: 300 } });
+      await waitFor(async () => {
+        await page.mouse.wheel(0, 200);
+        await page.waitForTimeout(300);
+        return (await page.locator("lesson-quiz").count()) > 0;
+      });
+    };
     return { page, errors, showQuiz, versions: versions(t, "jupyterlab", "anywidget") };
   },
 };

@@ -72,7 +72,10 @@ test("the one file is a widget", async (t) => {
     widget.render({ model: { get: (name) => traitsOfMyst[name], on: () => {}, off: throws }, el })();
     const afterMyst = el.childElementCount;
     const quiz = { questions: [{ q: "?", options: ["a", "b"], answer: 0 }] };
-    widget.render({ model: { get: (name) => ({ quiz })[name] }, el });
+    // Notebooks load the module again for each class of widgets.
+    const again = await import("/web/elements/dist/labspec-elements.js?again");
+    again.default.render({ model: { get: (name) => ({ quiz })[name] }, el });
+    if ("render" in again) throw new Error("anywidget warns of an export `render`");
     return { first, title, left: Object.keys(listeners).length, afterMyst, quiz: el.querySelectorAll("lesson-quiz").length };
   }, [dropLab, drop]);
   assert.ok(Math.abs(result.first - 0.01) < 1e-12);
