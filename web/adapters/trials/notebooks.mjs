@@ -121,7 +121,7 @@ if __name__ == "__main__":
     app.run()
 `);
     const url = await start(t, join(t.python, "marimo"), ["run", "trial.py", "--headless", "--no-token", "--host", "127.0.0.1"], t.folder, "/");
-    const { page, errors } = await t.open(url);
+    const { page, errors } = await t.open(url, /was preloaded using link preload/); // Chromium says so of marimo's own pictures.
     return { page, errors, versions: versions(t, "marimo", "anywidget") };
   },
 };

@@ -40,7 +40,7 @@ async function trial(name) {
     t.after(() => rmSync(folder, { recursive: true, force: true, maxRetries: 5 }));
     copyFileSync(elements, join(folder, "labspec-elements.js"));
     const browser = await launch(t);
-    t.open = (url) => open(browser, url);
+    t.open = (url, expected) => open(browser, url, expected);
     const { page, errors, versions, showQuiz } = await host.try(t);
     const screenshot = process.env.SCREENSHOTS === undefined ? null : join(process.env.SCREENSHOTS, `${name}.png`);
     if (screenshot !== null) t.after(() => page.screenshot({ path: screenshot }));
