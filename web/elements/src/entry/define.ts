@@ -1,7 +1,6 @@
 /** The exports of both builds. */
 import { defineSimLab } from "../lab/element.js";
 import { defineLessonQuiz } from "../quiz/element.js";
-import { render } from "./widget.js";
 
 export { EngineError } from "../engine/client.js";
 export { fetchModel, type FetchFile } from "../model-files.js";
@@ -11,7 +10,6 @@ export { contentHash, type Verified } from "../proof/verified.js";
 export { LessonQuiz } from "../quiz/element.js";
 export { hashAnswer } from "../quiz/hash.js";
 export { addLanguage } from "../text/messages.js";
-export { render };
 
 /** Defines both elements. */
 export function defineElements(): void {

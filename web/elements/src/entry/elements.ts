@@ -1,7 +1,8 @@
 /** The elements with the module and the worker in files of their own, beside this one. */
 import { serve } from "#engine";
 import { setEngineSource } from "../engine/client.js";
-import { defineElements, render } from "./define.js";
+import { defineElements } from "./define.js";
+import { render } from "./widget.js";
 
 export * from "./define.js";
 export default { render };

@@ -3,7 +3,8 @@ import { serve } from "#engine";
 import text from "#module";
 import { fromBase64 } from "../base64.js";
 import { setEngineSource } from "../engine/client.js";
-import { defineElements, render } from "./define.js";
+import { defineElements } from "./define.js";
+import { render } from "./widget.js";
 
 export * from "./define.js";
 export default { render };

@@ -1,6 +1,6 @@
 /** The elements as a widget: `render` as anywidget asks for it (JupyterLab, marimo, MyST). */
-import { SimLab } from "../lab/element.js";
-import { LessonQuiz } from "../quiz/element.js";
+import type { SimLab } from "../lab/element.js";
+import type { LessonQuiz } from "../quiz/element.js";
 import type { Models } from "labspec/slim";
 
 /** The model of a widget: its traits. */
@@ -20,7 +20,10 @@ const QUIZ_KEYS = ["id", "title", "questions"];
 /** Shows a lab or a quiz in an element; returns a function that takes it away. */
 export function render({ model, el }: { model: WidgetModel; el: HTMLElement }): () => void {
   const isQuiz = isGiven(model.get("quiz")) || isGiven(model.get("questions"));
-  const element = isQuiz ? new LessonQuiz() : new SimLab();
+  // A notebook loads this module once for each class of widgets, and only the first one defines the elements: another one's classes
+  // construct nothing.
+  const lab = isQuiz ? null : (document.createElement("sim-lab") as SimLab);
+  const element = lab ?? (document.createElement("lesson-quiz") as LessonQuiz);
   const update = (): void => {
     const models = model.get("models");
     const own = typeof models === "object" && models !== null ? (models as Models) : null;
@@ -28,21 +31,26 @@ export function render({ model, el }: { model: WidgetModel; el: HTMLElement }): 
     if (typeof models === "string") element.setAttribute("models", models);
     const lang = model.get("lang");
     if (typeof lang === "string") element.lang = lang;
-    if (element instanceof LessonQuiz) element.quiz = contentOf(model, "quiz", QUIZ_KEYS);
-    else element.lab = contentOf(model, "lab", LAB_KEYS);
+    if (lab === null) (element as LessonQuiz).quiz = contentOf(model, "quiz", QUIZ_KEYS);
+    else lab.lab = contentOf(model, "lab", LAB_KEYS);
   };
   update();
   el.replaceChildren(element);
   const events = ["change:lab", "change:quiz", "change:models"];
   for (const event of events) model.on?.(event, update);
   return () => {
-    for (const event of events) model.off?.(event, update);
     element.remove();
+    try {
+      for (const event of events) model.off?.(event, update);
+    } catch {
+      // The model of MyST's themes throws: it has no way to remove a listener. The page drops it with the model.
+    }
   };
 }
 
+/** Whether a trait has a content: an empty object is the default of a trait that nobody has set. */
 function isGiven(x: unknown): boolean {
-  return x !== undefined && x !== null && x !== "";
+  return x !== undefined && x !== null && x !== "" && !(typeof x === "object" && Object.keys(x).length === 0);
 }
 
 function contentOf(model: WidgetModel, name: string, keys: readonly string[]): object | string {
