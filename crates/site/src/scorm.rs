@@ -130,7 +130,7 @@ fn without_other_pages(
             Some(base) => {
                 format!(" target=\"_blank\" rel=\"noopener\" href=\"{}{}", escape(base), address(&other.name))
             }
-            None => " data-lesson=\"".to_string(),
+            None => " class=\"dead-link\" data-lesson=\"".to_string(),
         };
         for end in ["\"", "#"] {
             main = main.replace(&format!("{from}{end}"), &format!("{to}{end}"));
@@ -303,7 +303,11 @@ mod tests {
         };
         let html = page(None);
         assert!(html.contains("<lesson-quiz grades=\"scorm\" passing=\"0.6\" id=\"q\">"), "{html}");
-        assert!(html.contains("<a data-lesson=\"#part\">b</a>") && html.contains("href=\"#here\""), "{html}");
+        assert!(
+            html.contains("<a class=\"dead-link\" data-lesson=\"#part\">b</a>")
+                && html.contains("href=\"#here\""),
+            "{html}"
+        );
         assert!(html.contains("<a target=\"_blank\" rel=\"noopener\" href=\"https://x.org/\">"), "{html}");
         assert!(
             !html.contains("index.html") && !html.contains("labs.html") && !html.contains("data-offline"),
