@@ -1,6 +1,6 @@
 // Pictures of every lesson of a site in light, in dark, on a phone, in forced colours and on paper.
 //
-//   node pictures.mjs SITE [--full DIR] [--out ../../docs/pictures]
+//   node pictures.mjs SITE [--full DIR] [--out ../../docs/pictures] [--only light,print]
 //
 // SITE is a folder that `labspec build` wrote. DIR receives each page in full; `--out` receives one sheet with small pictures of all lessons
 // for each of the five.
@@ -20,9 +20,9 @@ const MODES = {
 /** The time to which each lab is played, s, and what a page may be high, pixels. */
 const PLAYED = 0.8, MOST_HIGH = 16_000;
 /** Pixels of a small picture: its width, and what is shown of its height. */
-const SMALL = 230, SMALL_HIGH = 1500;
+const SMALL = 200, SMALL_HIGH = 1200;
 
-const { values: given, positionals: [site] } = parseArgs({ allowPositionals: true, options: { full: { type: "string" }, out: { type: "string" } } });
+const { values: given, positionals: [site] } = parseArgs({ allowPositionals: true, options: { full: { type: "string" }, out: { type: "string" }, only: { type: "string", default: Object.keys(MODES).join() } } });
 if (site === undefined) throw new Error("SITE is missing: node pictures.mjs SITE [--full DIR] [--out DIR]");
 
 /** Opens and plays all labs of a page, in a window that is as high as the page: labs outside a window are not drawn. */
@@ -55,7 +55,7 @@ async function writeSheet(browser, mode, pictures) {
   await page.waitForFunction(() => [...document.images].every((image) => image.complete));
   const file = join(given.out, `lessons-${mode}.jpg`);
   mkdirSync(given.out, { recursive: true });
-  writeFileSync(file, await page.screenshot({ fullPage: true, type: "jpeg", quality: 72 }));
+  writeFileSync(file, await page.screenshot({ fullPage: true, type: "jpeg", quality: 45 }));
   await page.close();
   console.log(file);
 }
@@ -65,7 +65,7 @@ const { url } = await serve({ after: (close) => closing.push(close) }, site);
 const browser = await launch();
 const names = [...readFileSync(join(site, "index.html"), "utf8").matchAll(/<li><h2><a href="([^"]+)"/g)].map((found) => found[1]);
 try {
-  for (const [mode, options] of Object.entries(MODES)) {
+  for (const [mode, options] of Object.entries(MODES).filter(([name]) => given.only.split(",").includes(name))) {
     const pictures = [];
     for (const name of names) {
       const context = await browser.newContext(options), page = await context.newPage();
