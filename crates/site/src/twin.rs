@@ -211,13 +211,13 @@ mod tests {
 
     #[test]
     fn numbers_and_units_are_printed_as_the_elements_print_them() {
-        for (unit, shown) in
+        for (unit, printed) in
             [("m/s^2", "m/s²"), ("kg m^2 s^-10", "kg m² s⁻¹⁰"), ("^", "^"), ("a^b", "a^b"), ("", "")]
         {
-            assert_eq!(raised(unit), shown);
+            assert_eq!(raised(unit), printed);
         }
-        for (number, shown) in [("-9.81", "\u{2212}9.81"), ("0.1", "0.1"), ("-inf", "-inf"), ("-", "-")] {
-            assert_eq!(with_minus(number), shown);
+        for (number, printed) in [("-9.81", "\u{2212}9.81"), ("0.1", "0.1"), ("-inf", "-inf"), ("-", "-")] {
+            assert_eq!(with_minus(number), printed);
         }
     }
 }
