@@ -205,6 +205,26 @@ fn only_what_this_build_verified_carries_the_mark() {
 }
 
 #[test]
+fn a_course_has_content_packages_where_they_are_asked_for() {
+    let folder = course(&[("models/ball.xml", BALL), ("a.md", TRUE_LESSON), ("week 2/b.md", "# Next\n")]);
+    let at = |name: &str| folder.path().join("site").join(name);
+    let done = build(folder.path(), &["--scorm", "--pass", "0.6"]);
+    assert!(done.stdout.contains("2 content packages in scorm/"), "{}{}", done.stdout, done.stderr);
+    let archive = std::fs::read(at("scorm/a.zip")).unwrap();
+    assert!(archive.starts_with(b"PK\x03\x04") && at("scorm/week 2/b.zip").is_file());
+    build(folder.path(), &["--scorm", "--pass", "0.6"]);
+    assert_eq!(std::fs::read(at("scorm/a.zip")).unwrap(), archive, "the same course gives the same bytes");
+    let [worker, list] = ["sw.js", "labspec-site.json"].map(|name| page(folder.path(), name));
+    assert!(!worker.contains("scorm/") && list.contains("scorm/a.zip"), "{worker}{list}");
+    assert!(!page(folder.path(), "a.html").contains("scorm"), "the page of the site reports to nobody");
+    build(folder.path(), &[]);
+    assert!(!at("scorm/a.zip").exists(), "a site without packages keeps none");
+    for wrong in [&["--pass", "0.6"][..], &["--scorm", "--pass", "1.5"], &["--scorm", "--pass", "NaN"]] {
+        assert_eq!(build(folder.path(), wrong).code, 2, "{wrong:?}");
+    }
+}
+
+#[test]
 fn the_same_course_gives_the_same_bytes_without_names_of_this_machine() {
     let files = [
         ("models/ball.xml", BALL),

@@ -43,8 +43,8 @@ const made = {
 
 rmSync(at("dist"), { recursive: true, force: true });
 mkdirSync(at("dist"));
-for (const [entry, name] of [["one-file", "labspec-elements.js"], ["elements", "elements.js"]]) {
-  const { outputFiles } = await build({ ...common, entryPoints: [at(`src/entry/${entry}.ts`)], format: "esm", plugins: [styles, made] });
+for (const [entry, name] of [["entry/one-file", "labspec-elements.js"], ["entry/elements", "elements.js"], ["bytes", "bytes.js"]]) {
+  const { outputFiles } = await build({ ...common, entryPoints: [at(`src/${entry}.ts`)], format: "esm", plugins: [styles, made] });
   writeFileSync(at("dist", name), outputFiles[0].contents);
 }
 writeFileSync(at("dist/engine.js"), `(function(channel){${program}})(self);\n`);

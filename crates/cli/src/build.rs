@@ -13,7 +13,7 @@ use labspec::ledger::Outcome;
 use labspec::lint::ModelFolder;
 use labspec::report::{counted, human, printable, printable_path};
 use labspec::source::SourceFile;
-use labspec_site::{Course, MANIFEST, PageFiles, Site, SiteFile, SiteOptions, build_site};
+use labspec_site::{Course, MANIFEST, PageFiles, ScormOptions, Site, SiteFile, SiteOptions, build_site};
 use std::fs;
 use std::io::IsTerminal;
 use std::num::NonZeroUsize;
@@ -31,6 +31,12 @@ pub(super) struct BuildArguments {
     /// The address where the site will be, for sitemap.xml and canonical links
     #[arg(long, value_name = "URL", value_parser = base_address)]
     base_url: Option<String>,
+    /// Write a content package of SCORM 2004 for each lesson into the folder `scorm` of the site
+    #[arg(long)]
+    scorm: bool,
+    /// The share of right answers that passes a package, from 0 to 1. Without it, lessons are neither passed nor failed
+    #[arg(long, value_name = "SHARE", requires = "scorm", value_parser = share)]
+    pass: Option<f64>,
     #[command(flatten)]
     page: PageOptions,
     #[command(flatten)]
@@ -64,7 +70,7 @@ impl PageOptions {
 
     /// What a site says of itself.
     pub(super) fn site(&self, base: Option<String>) -> SiteOptions {
-        SiteOptions { title: self.title.clone(), lang: self.lang.clone(), base }
+        SiteOptions { title: self.title.clone(), lang: self.lang.clone(), base, scorm: None }
     }
 }
 
@@ -85,6 +91,12 @@ fn base_address(text: &str) -> Result<String, String> {
     }
 }
 
+/// A share from 0 to 1.
+fn share(text: &str) -> Result<f64, String> {
+    let value = text.parse::<f64>().ok().filter(|value| (0.0..=1.0).contains(value));
+    value.ok_or_else(|| "write a number from 0 to 1, such as 0.6".into())
+}
+
 /// Checks the course and writes its site.
 pub(super) fn build(a: &BuildArguments) -> Result<CommandOutcome, Failure> {
     if !a.folder.is_dir() {
@@ -102,7 +114,9 @@ pub(super) fn build(a: &BuildArguments) -> Result<CommandOutcome, Failure> {
     };
     let course =
         Course { folder: &a.folder, lessons: &results.checked, ledger: &results.ledger, models: &models };
-    let site = build_site(&course, &a.page.site(a.base_url.clone()), &page_files)?;
+    let scorm = a.scorm.then_some(ScormOptions { passing: a.pass });
+    let options = SiteOptions { scorm, ..a.page.site(a.base_url.clone()) };
+    let site = build_site(&course, &options, &page_files)?;
     write_site(&a.out, &site, &old)?;
     report(a, &results, &site)
 }
@@ -135,7 +149,7 @@ fn report(a: &BuildArguments, results: &CourseResults, site: &Site) -> Result<Co
         text.push_str(&format!("{}\n", printable(problem)));
     }
     text.push_str(&format!(
-        "{}\nwrote {} ({}) to {}; {} carry the mark \"verified\"\n",
+        "{}\nwrote {} ({}) to {}; {} carry the mark \"verified\"{}\n",
         results.ledger.summary(),
         counted(site.lessons, "lesson"),
         counted(site.files.len(), "file"),
@@ -143,6 +157,10 @@ fn report(a: &BuildArguments, results: &CourseResults, site: &Site) -> Result<Co
         match site.verified {
             1 => "1 lab or question".into(),
             n => format!("{n} labs and questions"),
+        },
+        match site.packages {
+            0 => String::new(),
+            n => format!("; {} in scorm/", counted(n, "content package")),
         }
     ));
     print(&text)?;
@@ -204,6 +222,7 @@ fn write_site(out: &Path, site: &Site, old: &[String]) -> Result<(), Failure> {
         let path = out.join(name);
         match file {
             SiteFile::Text(text) => write_site_file(&path, text.as_bytes())?,
+            SiteFile::Bytes(bytes) => write_site_file(&path, bytes)?,
             SiteFile::Copy(from) => {
                 let bytes =
                     fs::read(from).map_err(|e| format!("cannot read {}: {e}", printable_path(from)))?;

@@ -65,6 +65,15 @@ impl PageFiles {
         }
     }
 
+    /// Writes files that stand for the scripts of pages into a folder, each with its name many times, and lists them.
+    #[cfg(test)]
+    pub(crate) fn of_names(folder: &Path) -> PageFiles {
+        for name in REQUIRED.iter().chain(&OF_PREVIEW) {
+            std::fs::write(folder.join(name), name.repeat(99)).unwrap();
+        }
+        PageFiles::read(folder).unwrap()
+    }
+
     /// The path of a file.
     pub(crate) fn path(&self, name: &str) -> Option<&PathBuf> {
         self.files.get(name)

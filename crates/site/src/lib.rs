@@ -13,6 +13,7 @@
 //! | `prose`, `fence` | Markdown without its fences, and the fences, as HTML |
 //! | `lesson` | a lesson as blocks of HTML, in the order of its text |
 //! | `page`, `overview`, `search`, `offline` | pages around lessons, the indexes, and the files of the site |
+//! | `archive`, `scorm` | content packages for learning systems |
 //! | `assets` | scripts and styles that every page needs |
 //! | `site` | a course to files; [`build_site`] is the entry point |
 //! | `preview` | the server |
@@ -20,6 +21,7 @@
 //! Texts of lessons are untrusted. They reach a page through `text` and `html` only, and every page has a policy that allows no
 //! script but those of the site.
 
+mod archive;
 mod assets;
 mod fence;
 mod html;
@@ -34,6 +36,7 @@ mod overview;
 mod page;
 pub mod preview;
 mod prose;
+mod scorm;
 mod search;
 mod site;
 #[cfg(test)]
@@ -43,5 +46,6 @@ mod twin;
 mod verified;
 
 pub use assets::PageFiles;
+pub use scorm::ScormOptions;
 pub use site::{Course, MANIFEST, Site, SiteFile, SiteOptions, build_site};
 pub use twin::chart;

@@ -32,6 +32,8 @@ pub(crate) struct Page<'p> {
     pub(crate) head: String,
     /// Whether the pages are offered offline.
     pub(crate) is_offline: bool,
+    /// Whether the page stands alone: without the course around it, there is nothing to navigate.
+    pub(crate) is_alone: bool,
 }
 
 impl Page<'_> {
@@ -70,14 +72,8 @@ impl Page<'_> {
         let offline = if self.is_offline { " data-offline" } else { "" };
         let _ = write!(
             out,
-            "</head>\n<body data-root=\"{root}\"{offline}>\n<a class=\"skip\" href=\"#main\">Skip to the text</a>\n\
-             <header class=\"top\">\n<nav aria-label=\"Course\"><a class=\"home\" href=\"{root}index.html\">{}</a> \
-             <a href=\"{root}labs.html\">Labs</a></nav>\n\
-             <form class=\"search\" role=\"search\" hidden><label><span class=\"hidden\">Search</span>\
-             <input type=\"search\" placeholder=\"Search\" autocomplete=\"off\" spellcheck=\"false\"></label>\
-             <div class=\"results\" role=\"region\" aria-label=\"Results\" aria-live=\"polite\" hidden></div></form>\n</header>\n\
-             <main id=\"main\" tabindex=\"-1\"{}>\n{}</main>\n",
-            escape(self.course),
+            "</head>\n<body data-root=\"{root}\"{offline}>\n{}<main id=\"main\" tabindex=\"-1\"{}>\n{}</main>\n",
+            if self.is_alone { String::new() } else { self.header(&root) },
             self.attributes,
             self.main
         );
@@ -90,5 +86,18 @@ impl Page<'_> {
             env!("CARGO_PKG_VERSION")
         );
         out
+    }
+
+    /// What is above the main part.
+    fn header(&self, root: &str) -> String {
+        format!(
+            "<a class=\"skip\" href=\"#main\">Skip to the text</a>\n\
+             <header class=\"top\">\n<nav aria-label=\"Course\"><a class=\"home\" href=\"{root}index.html\">{}</a> \
+             <a href=\"{root}labs.html\">Labs</a></nav>\n\
+             <form class=\"search\" role=\"search\" hidden><label><span class=\"hidden\">Search</span>\
+             <input type=\"search\" placeholder=\"Search\" autocomplete=\"off\" spellcheck=\"false\"></label>\
+             <div class=\"results\" role=\"region\" aria-label=\"Results\" aria-live=\"polite\" hidden></div></form>\n</header>\n",
+            escape(self.course)
+        )
     }
 }

@@ -8,6 +8,7 @@ use crate::names::{PageNames, parts_inside};
 use crate::offline::{service_worker, sitemap};
 use crate::overview::{index_main, labs_main, neighbours};
 use crate::page::Page;
+use crate::scorm::{ScormOptions, write_packages};
 use crate::search::search_index;
 use crate::text::{escape, json_in_script};
 use crate::verified::hex_of;
@@ -46,6 +47,8 @@ pub struct SiteOptions {
     pub lang: String,
     /// The address where the site will be, ending in `/`; with it, the site has a map for search engines.
     pub base: Option<String>,
+    /// Whether there are content packages for learning systems, and what they say of grades.
+    pub scorm: Option<ScormOptions>,
 }
 
 impl SiteOptions {
@@ -62,6 +65,8 @@ pub enum SiteFile {
     Text(String),
     /// A copy of a file.
     Copy(PathBuf),
+    /// An archive.
+    Bytes(Vec<u8>),
 }
 
 /// The files of a site by their names, which are relative paths with `/`.
@@ -73,6 +78,8 @@ pub struct Site {
     pub problems: Vec<String>,
     /// The number of pages that are lessons.
     pub lessons: usize,
+    /// The number of content packages.
+    pub packages: usize,
     /// The number of labs and questions with the mark "verified".
     pub verified: usize,
 }
@@ -193,8 +200,6 @@ pub fn build_site(
         site.files.insert(name.to_string(), SiteFile::Text(page.write()));
     };
     for (at, page) in pages.iter().enumerate() {
-        let blocks: String =
-            page.blocks.iter().map(|block| format!("{}\n{}\n", wrapped(block), block.after)).collect();
         add(
             &page.name,
             Page {
@@ -202,7 +207,7 @@ pub fn build_site(
                 description: &page.lead,
                 has_math: page.has_math,
                 attributes: lesson_attributes(page),
-                main: format!("{}{blocks}{}", missing_heading(page), embedded_models(page)),
+                main: lesson_main(page),
                 neighbours: neighbours(&pages, at),
                 ..Page::default()
             },
@@ -224,9 +229,21 @@ pub fn build_site(
         let names: Vec<String> = site.files.keys().filter(|name| name.ends_with(".html")).cloned().collect();
         site.files.insert("sitemap.xml".into(), SiteFile::Text(sitemap(base, &names)));
     }
-    add_offline(&mut site, page_files)?;
+    let packages = match options.scorm {
+        Some(scorm) => write_packages(&pages, options, scorm, &site.files, page_files)?,
+        None => BTreeMap::new(),
+    };
+    site.packages = packages.len();
+    add_offline(&mut site, packages, page_files)?;
     site.problems = shelf.problems.into_iter().collect::<BTreeSet<_>>().into_iter().collect();
     Ok(site)
+}
+
+/// The main part of the page of a lesson.
+pub(crate) fn lesson_main(page: &LessonPage) -> String {
+    let blocks: String =
+        page.blocks.iter().map(|block| format!("{}\n{}\n", wrapped(block), block.after)).collect();
+    format!("{}{blocks}{}", missing_heading(page), embedded_models(page))
 }
 
 /// The content of a block in an element of its kind.
@@ -242,12 +259,17 @@ fn verified_in(after: &str) -> usize {
     after.split("<p class=\"verified\">").skip(1).map(|mark| mark.matches("question ").count().max(1)).sum()
 }
 
-/// Adds the service worker and the list of all files.
-fn add_offline(site: &mut Site, page_files: &PageFiles) -> Result<(), String> {
+/// Adds the service worker, the packages, which no reader needs offline, and the list of all files.
+fn add_offline(
+    site: &mut Site,
+    packages: BTreeMap<String, Vec<u8>>,
+    page_files: &PageFiles,
+) -> Result<(), String> {
     let mut hashes = Vec::new();
     for (name, file) in &site.files {
         let hash = match file {
             SiteFile::Text(text) => hex_of(&[text.as_bytes()]),
+            SiteFile::Bytes(bytes) => hex_of(&[bytes]),
             SiteFile::Copy(path) => {
                 hex_of(&[&std::fs::read(path).map_err(|e| format!("cannot read {}: {e}", path.display()))?])
             }
@@ -258,6 +280,7 @@ fn add_offline(site: &mut Site, page_files: &PageFiles) -> Result<(), String> {
     let program =
         std::fs::read_to_string(program).map_err(|e| format!("cannot read {}: {e}", program.display()))?;
     site.files.insert("sw.js".into(), SiteFile::Text(service_worker(&hashes, &program)));
+    site.files.extend(packages.into_iter().map(|(name, bytes)| (name, SiteFile::Bytes(bytes))));
     let mut names: Vec<&str> = site.files.keys().map(String::as_str).collect();
     names.push(MANIFEST);
     let list = serde_json::to_string_pretty(&names).unwrap_or_else(|_| "[]".into());

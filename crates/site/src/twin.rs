@@ -93,7 +93,9 @@ fn results(lab: &Lab, table: &Table) -> String {
         Some((readout.label.as_str(), last.get(column)?.rounded(readout.digits())))
     });
     let rows: String = readouts
-        .map(|(label, value)| format!("<div><dt>{}</dt><dd>{}</dd></div>", escape(label), escape(&value)))
+        .map(|(label, value)| {
+            format!("<div><dt>{}</dt><dd>{}</dd></div>", escape(label), escape(&with_minus(&value)))
+        })
         .collect();
     if !rows.is_empty() {
         let _ = write!(out, "<dl class=\"readouts\">{rows}</dl>");
@@ -108,6 +110,35 @@ fn results(lab: &Lab, table: &Table) -> String {
     out
 }
 
+/// A number with the sign that the elements print: a hyphen is not a minus.
+fn with_minus(number: &str) -> String {
+    match number.strip_prefix('-') {
+        Some(rest) if rest.starts_with(|c: char| c.is_ascii_digit()) => format!("\u{2212}{rest}"),
+        _ => number.to_string(),
+    }
+}
+
+/// A unit with its exponents raised: `m/s^2` as the elements print it.
+fn raised(unit: &str) -> String {
+    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let mut out = String::new();
+    let mut rest = unit.chars().peekable();
+    while let Some(c) = rest.next() {
+        let is_exponent = c == '^' && rest.peek().is_some_and(|next| *next == '-' || next.is_ascii_digit());
+        if !is_exponent {
+            out.push(c);
+            continue;
+        }
+        if rest.next_if_eq(&'-').is_some() {
+            out.push('⁻');
+        }
+        while let Some(digit) = rest.next_if(char::is_ascii_digit) {
+            out.extend(digit.to_digit(10).and_then(|d| DIGITS.get(d as usize)));
+        }
+    }
+    out
+}
+
 /// The values of the controls at the start, in words.
 fn settings(lab: &Lab) -> String {
     let parts = lab.controls.iter().filter_map(|control| {
@@ -115,8 +146,8 @@ fn settings(lab: &Lab) -> String {
         match &control.kind {
             ControlKind::Slider { unit, value, .. } => {
                 let number = Cell::Number(value.value).rounded(control.digits()?);
-                let unit = unit.as_ref().map_or(String::new(), |unit| format!(" {}", unit.as_str()));
-                Some(format!("{label} {number}{unit}"))
+                let unit = unit.as_ref().map_or(String::new(), |unit| format!(" {}", raised(unit.as_str())));
+                Some(format!("{label} {}{unit}", with_minus(&number)))
             }
             ControlKind::Select { options, value, .. } => {
                 let chosen = options.iter().find(|choice| is_same(&choice.value, value))?;
@@ -164,11 +195,29 @@ fn question_twin(question: &Question, addresses: &mut dyn Addresses) -> String {
         }
         QuestionKind::TrueFalse { .. } => out.push_str("<p class=\"blank\">True or false: ________</p>"),
         QuestionKind::Numeric { unit, .. } => {
-            let unit = unit.as_ref().map_or(String::new(), |unit| format!(" {}", escape(unit.as_str())));
+            let unit =
+                unit.as_ref().map_or(String::new(), |unit| format!(" {}", escape(&raised(unit.as_str()))));
             let _ = write!(out, "<p class=\"blank\">Your answer: ________{unit}</p>");
         }
         QuestionKind::Open { .. } => out.push_str("<p class=\"blank\">Your answer:</p>"),
     }
     out.push_str("</li>");
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_and_units_are_printed_as_the_elements_print_them() {
+        for (unit, printed) in
+            [("m/s^2", "m/s²"), ("kg m^2 s^-10", "kg m² s⁻¹⁰"), ("^", "^"), ("a^b", "a^b"), ("", "")]
+        {
+            assert_eq!(raised(unit), printed);
+        }
+        for (number, printed) in [("-9.81", "\u{2212}9.81"), ("0.1", "0.1"), ("-inf", "-inf"), ("-", "-")] {
+            assert_eq!(with_minus(number), printed);
+        }
+    }
 }

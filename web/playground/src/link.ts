@@ -1,5 +1,5 @@
 /** A project as text of a link: in the fragment, which no server sees. What comes from outside is checked. */
-import { collect, fromBase64, streamOf, toBase64 } from "./bytes.js";
+import { collect, fromAddressBase64, streamOf, toAddressBase64 } from "labspec-elements/bytes";
 import { isFileName, OpenError, type Project } from "./project.js";
 
 /** The form of links that this page writes. */
@@ -14,11 +14,11 @@ export async function encodeProject(project: Project): Promise<string | null> {
   const { lab, model, models } = project;
   const size = Object.values(project.files).reduce((sum, bytes) => sum + bytes.length, 0);
   if (size > MOST_CHARACTERS) return null;
-  const files = Object.fromEntries(Object.entries(project.files).map(([path, bytes]) => [path, toBase64(bytes)]));
+  const files = Object.fromEntries(Object.entries(project.files).map(([path, bytes]) => [path, toAddressBase64(bytes)]));
   const bytes = new TextEncoder().encode(JSON.stringify({ lab, model, models, files }));
   if (bytes.length > MOST_BYTES) return null;
   const packed = await collect(streamOf(bytes).pipeThrough(new CompressionStream("deflate-raw")), MOST_CHARACTERS);
-  const fragment = packed === null ? null : `#play${VERSION}=${toBase64(packed)}`;
+  const fragment = packed === null ? null : `#play${VERSION}=${toAddressBase64(packed)}`;
   return fragment === null || fragment.length > MOST_CHARACTERS ? null : fragment;
 }
 
@@ -33,7 +33,7 @@ export async function decodeProject(fragment: string): Promise<Project | null> {
   }
   const text = found[2] ?? "";
   if (text.length > MOST_CHARACTERS) throw new OpenError(`This link is longer than ${MOST_CHARACTERS} characters, so it was not opened.`);
-  const packed = fromBase64(text);
+  const packed = fromAddressBase64(text);
   if (packed === null || packed.length === 0) throw damaged("it has characters that no link has, or an end is missing");
   return readProject(await inflated(packed));
 }
@@ -73,7 +73,7 @@ function readProject(text: string): Project {
     return [name, xml];
   });
   const binaries = Object.entries(files).map(([name, content]): [string, Uint8Array] => {
-    const bytes = typeof content === "string" ? fromBase64(content) : null;
+    const bytes = typeof content === "string" ? fromAddressBase64(content) : null;
     if (bytes === null) throw damaged("a file in it cannot be read");
     return [name, bytes];
   });

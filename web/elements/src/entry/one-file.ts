@@ -1,7 +1,7 @@
 /** Everything in one file: the elements, their styles, the engine and its module. */
 import { serve } from "#engine";
 import text from "#module";
-import { fromBase64 } from "../base64.js";
+import { fromBase64 } from "../bytes.js";
 import { setEngineSource } from "../engine/client.js";
 import { defineElements } from "./define.js";
 import { render } from "./widget.js";

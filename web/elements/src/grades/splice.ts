@@ -3,15 +3,7 @@
  * quizzes share one state and one score.
  */
 import { isObject, type Json } from "../spec.js";
-
-/** A quiz of the page, as the activity sees it. */
-export interface GradedQuiz {
-  /** The state that is stored: plain data. */
-  readonly state: unknown;
-  /** Right answers and questions that are graded. */
-  readonly right: number;
-  readonly count: number;
-}
+import { addUp, storedOf, type Activity, type GradedQuiz } from "./activity.js";
 
 /** Milliseconds that a learning system has to answer. */
 const PATIENCE = 2000;
@@ -54,25 +46,18 @@ function storedState(): Promise<Json> {
   }));
 }
 
-/** Adds a quiz to the activity; gives what was stored of it, or null. */
-export async function joinActivity(name: string, quiz: () => GradedQuiz): Promise<unknown> {
-  quizzes.set(name, quiz);
-  const state = (await storedState())["quizzes"];
-  return isObject(state) && Object.hasOwn(state, name) ? state[name] : null;
-}
-
-/** Reports the score of the page, from 0 to 1, and its state. */
-export async function reportActivity(): Promise<void> {
-  // Quizzes that are not open keep their state.
-  const old = (await storedState())["quizzes"];
-  const all = [...quizzes].map(([name, quiz]) => [name, quiz()] as const);
-  const right = all.reduce((sum, [, quiz]) => sum + quiz.right, 0);
-  const count = all.reduce((sum, [, quiz]) => sum + quiz.count, 0);
-  const states = { ...(isObject(old) ? old : {}), ...Object.fromEntries(all.map(([name, { state }]) => [name, state])) };
-  send({ subject: "SPLICE.reportScoreAndState", score: count === 0 ? 0 : right / count, state: { quizzes: states } });
-}
-
-/** Reports an event of the page: what was answered. */
-export function reportEvent(name: string, data: object): void {
-  send({ subject: "SPLICE.sendEvent", name, data });
-}
+/** The learning system in the page around this one. */
+export const splice: Activity = {
+  async join(name, quiz) {
+    quizzes.set(name, quiz);
+    return storedOf((await storedState())["quizzes"], name);
+  },
+  answered(detail) {
+    send({ subject: "SPLICE.sendEvent", name: "quiz-answer", data: detail });
+  },
+  async report() {
+    const { right, count, states } = addUp(quizzes, (await storedState())["quizzes"]);
+    // From 0 to 1.
+    send({ subject: "SPLICE.reportScoreAndState", score: count === 0 ? 0 : right / count, state: { quizzes: states } });
+  },
+};

@@ -1,5 +1,8 @@
 /** Statements of the Experience API (xAPI 1.0.3) about answers. The page sends them: the elements have no network of their own. */
 
+/** Characters of a quiz's id in the id of a question; learning systems take 4000 with all escapes. */
+const MOST_ID = 250;
+
 /** The detail of an event `quiz-answer`. */
 export interface QuizAnswer {
   readonly quiz: string;
@@ -23,12 +26,19 @@ export interface StatementOptions {
   readonly name?: string;
 }
 
-const INTERACTIONS: Readonly<Record<string, string>> = {
+/** The id of a question within its page, as a part of an address. */
+export function questionId({ quiz, index }: Pick<QuizAnswer, "quiz" | "index">): string {
+  // An address has no half characters.
+  return `${encodeURIComponent(quiz.slice(0, MOST_ID).replace(/\p{Surrogate}/gu, "\ufffd"))}.${index + 1}`;
+}
+
+/** Interaction types of SCORM and of the Experience API. */
+export const INTERACTIONS: Readonly<Record<string, string>> = {
   mcq: "choice", debug: "choice", predict: "choice", multiple: "choice", truefalse: "true-false", numeric: "numeric", open: "long-fill-in", code: "long-fill-in",
 };
 
 /** An answer as xAPI writes it: options joined by `[,]`, `true` or `false`, or the text. */
-function responseOf({ kind, answer }: QuizAnswer): string {
+export function responseOf({ kind, answer }: QuizAnswer): string {
   if (typeof answer === "string") return kind === "numeric" ? answer.trim().replace(",", ".") : answer;
   return kind === "truefalse" ? String(answer[0] === 0) : answer.join("[,]");
 }
@@ -42,7 +52,7 @@ export function toXapi(detail: QuizAnswer, options: StatementOptions): object {
     verb: { id: "http://adlnet.gov/expapi/verbs/answered", display: { "en-US": "answered" } },
     object: {
       objectType: "Activity",
-      id: `${activity}#${encodeURIComponent(detail.quiz)}.${detail.index + 1}`,
+      id: `${activity}#${questionId(detail)}`,
       definition: {
         type: "http://adlnet.gov/expapi/activities/cmi.interaction", interactionType: INTERACTIONS[detail.kind] ?? "other",
         ...(options.name === undefined ? {} : { description: { und: options.name } }),

@@ -7,6 +7,7 @@ import { clamp, type LabSpec } from "../spec.js";
 import type { Say } from "../text/messages.js";
 import { builtinTextures } from "../texture/textures.js";
 import { cameraAxes, copyPose, moveCameraByKey, panCamera, pinchCamera, scaled, turnCamera, zoomCamera, type Point } from "./camera-moves.js";
+import { drawPaced, forgetPaced } from "./pace.js";
 
 export interface Viewport {
   readonly element: HTMLElement;
@@ -70,7 +71,8 @@ export function createViewport(opened: Opened, spec: LabSpec, say: Say, actions:
   if (view !== null) {
     listen(element, canvas, view, opened, say, actions, state);
   }
-  const resize = new ResizeObserver(() => view?.draw());
+  const draw = (): void => view?.draw();
+  const resize = new ResizeObserver(draw);
   resize.observe(canvas);
   return {
     element,
@@ -97,7 +99,7 @@ export function createViewport(opened: Opened, spec: LabSpec, say: Say, actions:
       if (view !== null && state.held !== null) view.setDrag({ from: grabbedPoint(frame, state.held), to: state.target });
     },
     clearTrail: () => view?.clearTrail(),
-    draw: () => view?.draw(),
+    draw: () => drawPaced(draw),
     restyle() {
       const style = getComputedStyle(element);
       view?.setTheme({ background: style.backgroundColor, highContrast: matchMedia("(forced-colors: active), (prefers-contrast: more)").matches });
@@ -131,6 +133,7 @@ export function createViewport(opened: Opened, spec: LabSpec, say: Say, actions:
       void view?.toPng(canvas.clientWidth * ratio, canvas.clientHeight * ratio).then((png) => saveFile(`${fileName(name)}.png`, png));
     },
     dispose() {
+      forgetPaced(draw);
       resize.disconnect();
       view?.dispose();
     },

@@ -64,7 +64,7 @@ export function createPlot(spec: PlotSpec, columns: readonly number[], title: st
   };
   const showValues = (): void => {
     const index = hovered >= 0 && hovered < series.length ? hovered : series.length - 1;
-    values.forEach((value, i) => setText(value, index < 0 ? "" : formatBrief(series.values[i]?.[index] ?? NaN)));
+    values.forEach((value, i) => setText(value, index < 0 ? "" : formatBrief(series.values[i]?.[index] ?? NaN).replace(/^-/, "−")));
     setText(hoverTime, hovered >= 0 && index >= 0 ? say("at", { time: formatTime(series.times[index] ?? NaN) }) : "");
   };
   const hover = (index: number): void => {

@@ -2,6 +2,8 @@
 import type { Models } from "labspec/slim";
 import { childrenRead, ContentError, readContent, readModels } from "../content.js";
 import { h, setText, takeOwnProperty } from "../dom.js";
+import { openScorm } from "../grades/scorm.js";
+import { splice } from "../grades/splice.js";
 import { errorPanel } from "../lab/layout.js";
 import { createBadge } from "../proof/badge.js";
 import { textOf, type Json } from "../spec.js";
@@ -9,7 +11,7 @@ import { applyStyles } from "../style/apply.js";
 import { messagesFor, type Say } from "../text/messages.js";
 import type { Card, CardContext } from "./card.js";
 import { createChoice } from "./choice.js";
-import { countRight, joinSplice, type Grading } from "./grading.js";
+import { countRight, joinActivity, type Grading } from "./grading.js";
 import { readQuiz, type Question, type QuizSpec } from "./read.js";
 import { loadAnswer, storeAnswer } from "./store.js";
 import { createNumeric, createOpen } from "./typed.js";
@@ -111,9 +113,11 @@ export class LessonQuiz extends HTMLElement {
       h("footer", { class: "quiz-foot" }, score, clear), createBadge(this, json, await this.#allModels(say), say));
   }
 
-  /** Where answers are kept: in the browser, or with `grades="splice"` by the learning system around the page. */
+  /** Where answers are kept: in the browser, or by the learning system that `grades` names. */
   async #grading(spec: QuizSpec): Promise<Grading> {
-    if (this.getAttribute("grades") === "splice") return joinSplice(spec);
+    const grades = this.getAttribute("grades");
+    const activity = grades === "splice" ? splice : grades === "scorm" ? openScorm(this.getAttribute("passing")) : null;
+    if (activity !== null) return joinActivity(spec, activity);
     const keep = this.getAttribute("store") === "off" ? "" : spec.id;
     return { load: (index) => loadAnswer(keep, index), store: (index, answer) => storeAnswer(keep, index, answer), begin: () => undefined, report: () => undefined };
   }

@@ -1,5 +1,6 @@
 /** Where the answers of a quiz are kept, and who is told the score. */
-import { joinActivity, reportActivity, reportEvent } from "../grades/splice.js";
+import type { Activity } from "../grades/activity.js";
+import type { QuizAnswer } from "../grades/xapi.js";
 import { listOf } from "../spec.js";
 import type { Card } from "./card.js";
 import type { QuizSpec } from "./read.js";
@@ -17,7 +18,7 @@ export interface Grading {
   /** The score of the stored answers. */
   begin(score: Count): void;
   /** Reports the score, and what was answered. */
-  report(score: Count, answer: object | null): void;
+  report(score: Count, answer: QuizAnswer | null): void;
 }
 
 export function countRight(cards: readonly (Card | null)[]): Count {
@@ -26,10 +27,12 @@ export function countRight(cards: readonly (Card | null)[]): Count {
 }
 
 /** A quiz whose answers a learning system keeps. */
-export async function joinSplice(spec: QuizSpec): Promise<Grading> {
+export async function joinActivity(spec: QuizSpec, activity: Activity): Promise<Grading> {
   const answers: (Stored | null)[] = spec.questions.map(() => null);
   let score: Count = { right: 0, count: 0 };
-  const stored = await joinActivity(spec.id, () => ({ state: answers, ...score }));
+  // A question that cannot be read has no answer to wait for.
+  const isAnswered = (): boolean => spec.questions.every(({ kind }, i) => kind === "broken" || (answers[i] ?? null) !== null);
+  const stored = await activity.join(spec.id, () => ({ state: answers, ...score, isAnswered: isAnswered() }));
   listOf(stored).slice(0, answers.length).forEach((answer, i) => {
     answers[i] = readAnswer(answer);
   });
@@ -43,8 +46,8 @@ export async function joinSplice(spec: QuizSpec): Promise<Grading> {
     },
     report(now, answer) {
       score = now;
-      void reportActivity();
-      if (answer !== null) reportEvent("quiz-answer", answer);
+      if (answer !== null) activity.answered(answer);
+      void activity.report();
     },
   };
 }

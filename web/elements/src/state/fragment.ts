@@ -1,4 +1,5 @@
 /** The state of a lab as text: in the fragment of an address, or in a file. What comes from outside is checked before it is played. */
+import { collect, fromAddressBase64, streamOf, toAddressBase64 } from "../bytes.js";
 
 /** The engine plays a state again: so many steps at most, and so many things that a student did. */
 const MOST_STEPS = 2_000_000;
@@ -19,24 +20,23 @@ export class StateError extends Error {
 
 /** A state as text of a link; `null` where it is too long for one. */
 export async function encodeState(bytes: Uint8Array): Promise<string | null> {
-  const packed = await collect(streamOf(bytes).pipeThrough(new CompressionStream("deflate-raw")), MOST_BYTES);
-  let binary = "";
-  for (const byte of packed) binary += String.fromCharCode(byte);
-  const text = btoa(binary).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "");
+  const packed = await collect(streamOf(bytes).pipeThrough(new CompressionStream("deflate-raw")), MOST_CHARACTERS);
+  if (packed === null) return null;
+  const text = toAddressBase64(packed);
   return text.length > MOST_CHARACTERS ? null : text;
 }
 
 /** The state of a link. */
 export async function decodeState(text: string): Promise<Uint8Array> {
-  if (text.length > MOST_CHARACTERS || !/^[\w-]+$/.test(text)) throw new StateError("damaged");
-  let bytes: Uint8Array;
+  const packed = text.length > MOST_CHARACTERS || text === "" ? null : fromAddressBase64(text);
+  if (packed === null) throw new StateError("damaged");
+  let bytes: Uint8Array | null;
   try {
-    const binary = atob(text.replaceAll("-", "+").replaceAll("_", "/"));
-    const packed = Uint8Array.from(binary, (c) => c.charCodeAt(0));
     bytes = await collect(streamOf(packed).pipeThrough(new DecompressionStream("deflate-raw")), MOST_BYTES);
-  } catch (e) {
-    throw e instanceof StateError ? e : new StateError("damaged");
+  } catch {
+    throw new StateError("damaged");
   }
+  if (bytes === null) throw new StateError("too-long");
   checkState(bytes);
   return bytes;
 }
@@ -79,32 +79,4 @@ export function fragmentWith(fragment: string, key: string, state: string): stri
   const name = `lab.${encodeURIComponent(key)}`;
   const others = fragment.replace(/^#/, "").split("&").filter((part) => /^[\w.%-]+=/.test(part) && !part.startsWith(`${name}=`));
   return `#${[...others, `${name}=${state}`].join("&")}`;
-}
-
-function streamOf(bytes: Uint8Array): ReadableStream<BufferSource> {
-  return new Blob([bytes as BlobPart]).stream();
-}
-
-/** All bytes of a stream, up to a limit. */
-async function collect(stream: ReadableStream<Uint8Array>, limit: number): Promise<Uint8Array> {
-  const reader = stream.getReader();
-  const parts: Uint8Array[] = [];
-  let length = 0;
-  for (;;) {
-    const { done, value } = await reader.read();
-    if (done) break;
-    length += value.length;
-    if (length > limit) {
-      await reader.cancel();
-      throw new StateError("too-long");
-    }
-    parts.push(value);
-  }
-  const out = new Uint8Array(length);
-  let at = 0;
-  for (const part of parts) {
-    out.set(part, at);
-    at += part.length;
-  }
-  return out;
 }

@@ -9,7 +9,7 @@ import type { SceneTexture } from "./types.js";
 type Gl = WebGL2RenderingContext;
 
 /** Texture units. */
-export const UNIT = { image: 0, cube: 1, shadow: 2 } as const;
+export const UNIT = { image: 0, cube: 1, shadow: 2, mirror: 3 } as const;
 
 export interface Program {
   /** The linked program. It is linked while other work goes on, and checked at its first use. */
@@ -43,6 +43,8 @@ export interface Gpu {
   readonly emptyArray: WebGLVertexArrayObject;
   readonly shadowBuffer: WebGLFramebuffer;
   readonly shadowTexture: WebGLTexture;
+  /** The picture of the last mirror. */
+  readonly mirrorTexture: WebGLTexture;
   readonly noImage: WebGLTexture;
   readonly noCube: WebGLTexture;
 }
@@ -127,7 +129,7 @@ export function createGpu(gl: Gl): Gpu {
     line: compile(gl, LINE_VERTEX, LINE_FRAGMENT),
     sky: compile(gl, SKY_VERTEX, SKY_FRAGMENT),
     instances: gl.createBuffer(), lines: gl.createBuffer(), lineArray: lineArray(gl), emptyArray: gl.createVertexArray(),
-    shadowBuffer: buffer, shadowTexture: texture,
+    shadowBuffer: buffer, shadowTexture: texture, mirrorTexture: uploadTexture(gl, WHITE).texture,
     noImage: uploadTexture(gl, WHITE).texture, noCube: uploadTexture(gl, WHITE_CUBE).texture,
   };
 }

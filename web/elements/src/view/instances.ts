@@ -1,5 +1,6 @@
 /** The content of a picture: shapes with a pose, a size, a colour and a material, and lines. Each picture fills it again. */
 import type { Mat3, Vec3 } from "./matrix.js";
+import type { Mirror } from "./mirror.js";
 import { PATTERN, TEXTURE_MODE } from "./programs.js";
 
 /** Numbers of an instance: pose (12), scale (4), colour (4), material (4), texture and pattern (4). */
@@ -93,8 +94,11 @@ export class DrawList {
   runs: Run[] = [];
   shadowRuns: Run[] = [];
   lineCount = 0;
+  /** The mirror of the scene, if it has one. */
+  mirror: Mirror | null = null;
 
   clear(): void {
+    this.mirror = null;
     this.#items = [];
     this.lineCount = 0;
   }

@@ -4,7 +4,7 @@
 export const MAX_LIGHTS = 8;
 
 /** What a surface shows besides its colour: `instances.ts` writes these numbers. */
-export const PATTERN = { plain: 0, grid: 1, checker: 2, fading: 4 } as const;
+export const PATTERN = { plain: 0, grid: 1, checker: 2, fading: 4, mirror: 8 } as const;
 /** Where texture coordinates come from: the mesh, the faces of a box (or of what is inside it), a plane without end, a direction in the
  * shape of size 1 or in metres. */
 export const TEXTURE_MODE = { none: 0, mesh: 1, box: 2, endless: 3, cube: 4, cubeOfMetres: 5 } as const;
@@ -39,6 +39,8 @@ void main() {
   v_normal = vec3(dot(i_x.xyz, n), dot(i_y.xyz, n), dot(i_z.xyz, n));
   v_uv = a_uv;
   v_color = i_color; v_material = i_material; v_extra = i_extra;
+  // Of a box, the upper face is the mirror.
+  if (a_normal.z < 0.5 && (int(i_extra.w) & ${PATTERN.mirror}) != 0) v_extra.w -= ${PATTERN.mirror}.0;
   gl_Position = u_projection * vec4(v_world, 1);
 }`;
 
@@ -63,6 +65,9 @@ uniform sampler2D u_texture;
 uniform samplerCube u_cube;
 uniform vec4 u_grid;
 uniform float u_alpha;
+// The plane in front of which surfaces are drawn, and the scene as the mirror shows it, at the same pixels.
+uniform vec4 u_front;
+uniform sampler2D u_mirror;
 out vec4 result;
 
 vec3 linear(vec3 c) { return c * (c * (c * 0.305306011 + 0.682171111) + 0.012522878); }
@@ -99,6 +104,7 @@ float gridLine(vec2 p, float cell, float width) {
 }
 
 void main() {
+  if (dot(u_front, vec4(v_world, 1)) < 0.0) discard;
   vec4 color = v_color;
   color.a *= u_alpha;
   vec3 base = linear(color.rgb);
@@ -145,10 +151,11 @@ void main() {
     diffuse += u_lightDiffuse[i].rgb * (facing * strength);
     gloss += u_lightSpecular[i] * (strength * pow(max(dot(n, normalize(l + toEye)), 0.0), exponent));
   }
-  float rim = pow(1.0 - max(dot(n, toEye), 0.0), 4.0);
-  gloss = gloss * v_material.y + v_material.w * mix(0.3, 1.0, rim) * mix(u_ground, u_sky, reflect(-toEye, n).z * 0.5 + 0.5);
-  vec3 shade = base * (diffuse * (1.0 - 0.5 * v_material.w) + v_material.x) + gloss * 0.5 * (isPlane ? 0.15 : 1.0);
-  result = vec4(display(shade) * color.a, color.a);
+  vec3 shade = base * (diffuse + v_material.x) + gloss * v_material.y * 0.5 * (isPlane ? 0.15 : 1.0);
+  vec3 shown = display(shade);
+  if ((pattern & ${PATTERN.mirror}) != 0)
+    shown = min(shown + v_material.w * texelFetch(u_mirror, ivec2(gl_FragCoord.xy), 0).rgb, 1.0);
+  result = vec4(shown * color.a, color.a);
 }`;
 
 export const SHADOW_VERTEX = `${INSTANCE}

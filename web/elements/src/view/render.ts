@@ -5,7 +5,8 @@ import type { Geometry } from "./geometry.js";
 import { UNIT, type Gpu, type Program } from "./gpu.js";
 import { INSTANCE_SIZE, LAYER, LINE_SIZE, type DrawList, type Run } from "./instances.js";
 import { SHADOW_SIZE, type Lights } from "./lights.js";
-import { scale, type Mat4 } from "./matrix.js";
+import { multiply, scale, type Mat4 } from "./matrix.js";
+import { frontOf, mirrorEye, reflection, type Mirror } from "./mirror.js";
 
 export interface Picture {
   readonly width: number;
@@ -20,6 +21,9 @@ export interface Picture {
   /** Device pixels of a CSS pixel. */
   readonly density: number;
 }
+
+/** A plane that has everything in front of it. */
+const EVERYWHERE = [0, 0, 0, 1];
 
 function drawRun(context: SharedContext, run: Run): void {
   const { gl, instances } = context.gpu, shape = context.shape(run.shape);
@@ -67,8 +71,9 @@ function setLights(gpu: Gpu, { uniform }: Program, p: Picture): void {
   gl.uniform3f(uniform("u_shadowTexel"), 1 / SHADOW_SIZE, 2 * l.shadowPixel, 0.0003);
 }
 
-function setSurface(gpu: Gpu, p: Picture, projection: Mat4): void {
-  const { gl, surface } = gpu, { uniform } = surface, { eye } = p;
+/** Prepares the program of surfaces for what is in front of a plane, seen from an eye. */
+function setSurface(gpu: Gpu, p: Picture, projection: Mat4, eye: Eye, front: readonly number[]): void {
+  const { gl, surface } = gpu, { uniform } = surface;
   gl.useProgram(surface.program);
   gl.uniformMatrix4fv(uniform("u_projection"), false, projection);
   const place = eye.isOrthographic ? scale(eye.forward, -1) : eye.position;
@@ -78,7 +83,11 @@ function setSurface(gpu: Gpu, p: Picture, projection: Mat4): void {
   gl.uniform1i(uniform("u_cube"), UNIT.cube);
   gl.uniform1i(uniform("u_shadow"), UNIT.shadow);
   gl.uniform4fv(uniform("u_grid"), p.grid);
+  gl.uniform1i(uniform("u_mirror"), UNIT.mirror);
+  gl.uniform4fv(uniform("u_front"), front);
+  gl.uniform1f(uniform("u_alpha"), 1);
   bind(gpu, UNIT.shadow, gl.TEXTURE_2D, gpu.shadowTexture);
+  bind(gpu, UNIT.mirror, gl.TEXTURE_2D, gpu.mirrorTexture);
 }
 
 function drawLayer(context: SharedContext, p: Picture, layer: number): void {
@@ -138,6 +147,37 @@ function drawOverlays(context: SharedContext, p: Picture, projection: Mat4): voi
   }
 }
 
+/** Everything but overlays. */
+function drawSurfaces(context: SharedContext, p: Picture): void {
+  const { gl } = context.gpu;
+  gl.disable(gl.BLEND);
+  gl.depthMask(true);
+  gl.enable(gl.CULL_FACE);
+  drawLayer(context, p, LAYER.opaque);
+  gl.enable(gl.BLEND);
+  gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+  gl.disable(gl.CULL_FACE);
+  drawLayer(context, p, LAYER.plane);
+  gl.enable(gl.CULL_FACE);
+  gl.depthMask(false);
+  drawLayer(context, p, LAYER.transparent);
+  gl.depthMask(true);
+}
+
+/** The scene in the mirror, as a texture of the size of the picture. It is drawn into the picture first, whose edges are smooth. */
+function drawMirror(context: SharedContext, p: Picture, projection: Mat4, mirror: Mirror): void {
+  const { gl, mirrorTexture } = context.gpu;
+  setSurface(context.gpu, p, multiply(projection, reflection(mirror)), mirrorEye(p.eye, mirror), frontOf(mirror, 1e-3 * p.eye.near));
+  // Mirrored triangles turn the other way.
+  gl.frontFace(gl.CW);
+  drawSurfaces(context, p);
+  gl.frontFace(gl.CCW);
+  bind(context.gpu, UNIT.mirror, gl.TEXTURE_2D, mirrorTexture);
+  gl.copyTexImage2D(gl.TEXTURE_2D, 0, gl.RGBA, 0, 0, p.width, p.height, 0);
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
+  gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+}
+
 function upload(gpu: Gpu, p: Picture): void {
   const { gl } = gpu;
   for (const [buffer, data] of [[gpu.instances, p.list.instances], [gpu.lines, p.list.lines]] as const) {
@@ -147,7 +187,7 @@ function upload(gpu: Gpu, p: Picture): void {
 }
 
 export function drawPicture(context: SharedContext, p: Picture): void {
-  const { gpu } = context, { gl, surface } = gpu;
+  const { gpu } = context, { gl } = gpu;
   upload(gpu, p);
   gl.enable(gl.DEPTH_TEST);
   gl.depthFunc(gl.LEQUAL);
@@ -159,18 +199,11 @@ export function drawPicture(context: SharedContext, p: Picture): void {
   gl.scissor(0, 0, p.width, p.height);
   gl.clearColor(0, 0, 0, 0);
   gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
-  drawSky(context, p);
   const projection = projectionOf(p.eye, p.width / p.height);
-  setSurface(gpu, p, projection);
-  gl.uniform1f(surface.uniform("u_alpha"), 1);
-  gl.enable(gl.CULL_FACE);
-  drawLayer(context, p, LAYER.opaque);
-  gl.enable(gl.BLEND);
-  gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
-  gl.disable(gl.CULL_FACE);
-  drawLayer(context, p, LAYER.plane);
-  gl.enable(gl.CULL_FACE);
-  gl.depthMask(false);
-  drawLayer(context, p, LAYER.transparent);
+  if (p.list.mirror !== null) drawMirror(context, p, projection, p.list.mirror);
+  gl.disable(gl.BLEND);
+  drawSky(context, p);
+  setSurface(gpu, p, projection, p.eye, EVERYWHERE);
+  drawSurfaces(context, p);
   drawOverlays(context, p, projection);
 }

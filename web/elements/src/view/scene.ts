@@ -2,6 +2,7 @@
 import { depthOf, type Eye } from "./camera.js";
 import { LAYER, PLAIN, type Color, type DrawList, type Instance, type Material } from "./instances.js";
 import { add, at, rotate, rotationAt, row3, sub, unrotate, type Vec3 } from "./matrix.js";
+import { mirrorOf } from "./mirror.js";
 import { PATTERN, TEXTURE_MODE } from "./programs.js";
 import type { ShapeName } from "./shapes.js";
 import type { Palette } from "./theme.js";
@@ -106,21 +107,28 @@ function geomForm(m: SceneModel, names: GeometryNames, id: number): Form | null 
   return primitive(type, row3(m.geom_size, id));
 }
 
+/** Pushes a geom, which is the mirror of the scene if it reflects and none before it does. */
+function pushMirror(list: DrawList, instance: Instance, eye: Eye): void {
+  const mirror = list.mirror === null ? mirrorOf(instance, eye) : null;
+  if (mirror !== null) list.mirror = mirror;
+  list.push(mirror === null ? instance : { ...instance, pattern: (instance.pattern ?? PATTERN.plain) | PATTERN.mirror });
+}
+
 export function pushGeoms(list: DrawList, m: SceneModel, f: SceneFrame, names: GeometryNames, eye: Eye, palette: Palette): void {
   for (let id = 0; id < m.geom_type.length; id++) {
     if (!isVisible(m.geom_group, id)) continue;
     if (at(m.geom_type, id) === GEOM.plane) {
-      list.push(planeInstance(m, f, id, eye, palette));
+      pushMirror(list, planeInstance(m, f, id, eye, palette), eye);
       continue;
     }
     const shape = geomForm(m, names, id), matid = m.geom_matid[id] ?? -1;
     const given = colorOf(m, m.geom_rgba, id, matid), color = given.isDefault ? palette.geom : given.color;
     if (!shape || color[3] <= 0) continue;
     const position = row3(f.geom_xpos, id), isOpaque = color[3] >= 1;
-    list.push({
+    pushMirror(list, {
       ...shape, position, rotation: rotationAt(f.geom_xmat, id), color, material: materialOf(m, matid, at(m.geom_type, id), row3(m.geom_size, id)),
       layer: isOpaque ? LAYER.opaque : LAYER.transparent, depth: depthOf(eye, position), castsShadow: isOpaque,
-    });
+    }, eye);
   }
 }
 

@@ -11,6 +11,8 @@ And builtin.json: the pixels of builtin textures, beside their declarations.
 
 And floor.json: a floor with a builtin checker in light without direction: which of its two colours is in every pixel (run lengths of 1 and 2; 0 where
 neither is, to three levels).
+
+And mirror.json: scenes with a mirror, and in which pixels the library adds the image of something (run lengths of 0 and 1).
 """
 
 import json
@@ -282,6 +284,47 @@ def record_floor(size, uniform):
     return recorded | {"camera": camera, "colors": runs(which)}
 
 
+# A floor, and boxes in a turned mirror; what is mirrored shines, and lies in front of the mirror, behind it or inside it.
+MIRROR = """<mujoco>
+  <visual><headlight ambient="0.1 0.1 0.1" diffuse="0 0 0" specular="0 0 0"/></visual>
+  <asset>
+    <material name="mirror" rgba="0.1 0.2 0.4 1" specular="0" reflectance="{reflectance}"/>
+    <material name="second" rgba="0.1 0.2 0.4 1" specular="0" reflectance="0.9"/>
+    <material name="bright" rgba="1 0.5 0 1" emission="1" specular="0"/>
+  </asset>
+  <worldbody>
+    {mirror}
+    <geom type="box" size="0.1 0.1 0.1" pos="1 0.3 0.1" material="second"/>
+    <geom type="ellipsoid" size="0.3 0.2 0.15" pos="0 0 0.5" euler="20 30 0" material="bright"/>
+    <geom type="capsule" size="0.1 0.3" pos="-0.5 0.3 0.25" euler="0 40 0" material="bright"/>
+    <geom size="0.15" pos="0.5 0.1 0" material="bright"/>
+  </worldbody>
+</mujoco>"""
+MIRRORS = {
+    "floor": ('<geom type="plane" size="2 2 0.1" material="mirror"/>', (90, -25, 3, (0, 0, 0.1))),
+    "endless": ('<geom type="plane" size="0 0 0.1" material="mirror"/>', (40, -35, 3, (0, 0, 0.2))),
+    "box": ('<geom type="box" size="1.5 1.2 0.1" pos="0 0 -0.2" euler="10 -15 0" material="mirror"/>', (120, -30, 3.5, (0, 0, 0.1))),
+    "below": ('<geom type="plane" size="2 2 0.1" euler="0 180 0" material="mirror"/>', (90, -25, 3, (0, 0, 0.1))),
+}
+
+
+def record_mirror(mirror, spec):
+    def picture(reflectance):
+        m = mujoco.MjModel.from_xml_string(MIRROR.format(mirror=mirror, reflectance=reflectance))
+        d = mujoco.MjData(m)
+        mujoco.mj_forward(m, d)
+        library, camera = cameras(m, spec)
+        with mujoco.Renderer(m, HEIGHT, WIDTH) as renderer:
+            for flag in (mujoco.mjtRndFlag.mjRND_SHADOW, mujoco.mjtRndFlag.mjRND_HAZE):
+                renderer.scene.flags[flag] = 0
+            renderer.update_scene(d, library)
+            return m, d, camera, renderer.render().astype(int)
+
+    m, d, camera, rgb = picture(0.5)
+    added = (rgb - picture(0)[3]).max(axis=2) > 60
+    return scene(m, d) | {"camera": camera, "added": runs(added.astype(int))}
+
+
 def write(name, scenes):
     lines = [f"{json.dumps(name)}: {json.dumps(scene, separators=(',', ':'))}" for name, scene in scenes.items()]
     text = "{\n" + ",\n".join(lines) + "\n}\n"
@@ -296,6 +339,7 @@ def main(corpus, specs):
     write("builtin.json", {name: record_builtin(attributes) for name, attributes in BUILTIN.items()})
     floors = {"sized": ("1 1.5 0.1", False), "uniform": ("1 1.5 0.1", True), "endless": ("0 0 0.1", True)}
     write("floor.json", {name: record_floor(*about) for name, about in floors.items()})
+    write("mirror.json", {name: record_mirror(*about) for name, about in MIRRORS.items()})
     write("textures.json", {name: record_textures(*about) for name, about in TEXTURED.items()})
 
 

@@ -1,0 +1,319 @@
+//! Content packages of SCORM 2004 4th edition (Content Aggregation Model, section 3): one archive for each lesson, with its page, the
+//! scripts, the models and other files that the page needs, and the manifest. A lesson with questions is a sharable content object,
+//! which reports grades; one without is an asset.
+//!
+//! The page has no navigation: it is one activity of a course that the learning system shows. Its links to other lessons lead to the
+//! site where there is an address of it, and nowhere otherwise.
+
+use crate::archive::{Deflated, deflate, write_archive};
+use crate::assets::PageFiles;
+use crate::lesson::LessonPage;
+use crate::names::address_from;
+use crate::page::Page;
+use crate::site::{SiteFile, SiteOptions, lesson_attributes, lesson_main};
+use crate::text::{address, escape};
+use crate::verified::short_hash;
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+/// The name of the manifest, which the standard gives.
+const MANIFEST: &str = "imsmanifest.xml";
+/// The folder of a site with the packages.
+const FOLDER: &str = "scorm";
+
+/// What packages say of grades.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ScormOptions {
+    /// The share of right answers that passes, from 0 to 1. Without it, a lesson is neither passed nor failed.
+    pub passing: Option<f64>,
+}
+
+/// Writes a package for each lesson of a site. Their names in the site are those of the pages with the ending `.zip`.
+///
+/// # Errors
+/// A file cannot be read.
+pub(crate) fn write_packages(
+    pages: &[LessonPage],
+    options: &SiteOptions,
+    scorm: ScormOptions,
+    copied: &BTreeMap<String, SiteFile>,
+    page_files: &PageFiles,
+) -> Result<BTreeMap<String, Vec<u8>>, String> {
+    // The scripts are the same in all packages.
+    let mut deflated: BTreeMap<PathBuf, Deflated> = BTreeMap::new();
+    let mut packages = BTreeMap::new();
+    for page in pages {
+        let html = package_page(page, pages, options, scorm);
+        let scripts = page_files.needed(page.has_math, false).map(|(name, path)| (name, path.as_path()));
+        let files: BTreeMap<String, &Path> = scripts.chain(needed_copies(page, &html, copied)).collect();
+        for path in files.values() {
+            if !deflated.contains_key(*path) {
+                let bytes =
+                    std::fs::read(path).map_err(|e| format!("cannot read {}: {e}", path.display()))?;
+                deflated.insert(path.to_path_buf(), deflate(&bytes));
+            }
+        }
+        let manifest = deflate(manifest(page, files.keys(), options, scorm).as_bytes());
+        let html = deflate(html.as_bytes());
+        let first = [(MANIFEST, &manifest), (page.name.as_str(), &html)];
+        let others = files.iter().filter_map(|(name, path)| Some((name.as_str(), deflated.get(*path)?)));
+        let archive = write_archive(first.into_iter().chain(others))
+            .map_err(|e| format!("cannot write a package for {}: {e}", page.name))?;
+        packages.insert(package_name(&page.name), archive);
+    }
+    Ok(packages)
+}
+
+/// The name of the package of a page.
+fn package_name(page: &str) -> String {
+    format!("{FOLDER}/{}.zip", page.strip_suffix(".html").unwrap_or(page))
+}
+
+/// The files of the course that a page needs: those to which it links, and its folder of models.
+fn needed_copies<'f>(
+    page: &LessonPage,
+    html: &str,
+    copied: &'f BTreeMap<String, SiteFile>,
+) -> Vec<(String, &'f Path)> {
+    let is_needed = |name: &str| {
+        let is_model =
+            page.model_folder.as_ref().is_some_and(|folder| name.starts_with(&format!("{folder}/")));
+        is_model || html.contains(&format!("\"{}\"", escape(&address_from(&page.name, name))))
+    };
+    copied
+        .iter()
+        .filter_map(|(name, file)| match file {
+            SiteFile::Copy(path) if is_needed(name) => Some((name.clone(), path.as_path())),
+            _ => None,
+        })
+        .collect()
+}
+
+/// The page of a lesson as a learning system shows it.
+fn package_page(
+    page: &LessonPage,
+    pages: &[LessonPage],
+    options: &SiteOptions,
+    scorm: ScormOptions,
+) -> String {
+    let passing = scorm.passing.map_or(String::new(), |share| format!(" passing=\"{share}\""));
+    let main = lesson_main(page)
+        .replace("<lesson-quiz id=", &format!("<lesson-quiz grades=\"scorm\"{passing} id="))
+        // A page of the web would take the place of the lesson in its frame.
+        .replace(" href=\"http", " target=\"_blank\" rel=\"noopener\" href=\"http");
+    Page {
+        name: &page.name,
+        title: &page.title,
+        course: options.title(),
+        lang: &options.lang,
+        description: &page.lead,
+        has_math: page.has_math,
+        attributes: lesson_attributes(page),
+        main: without_other_pages(main, page, pages, options.base.as_deref()),
+        is_alone: true,
+        ..Page::default()
+    }
+    .write()
+}
+
+/// Leads links to other lessons to their pages on the site, or nowhere.
+fn without_other_pages(
+    mut main: String,
+    page: &LessonPage,
+    pages: &[LessonPage],
+    base: Option<&str>,
+) -> String {
+    for other in pages.iter().filter(|other| other.name != page.name) {
+        let from = format!(" href=\"{}", address_from(&page.name, &other.name));
+        let to = match base {
+            Some(base) => {
+                format!(" target=\"_blank\" rel=\"noopener\" href=\"{}{}", escape(base), address(&other.name))
+            }
+            None => " class=\"dead-link\" data-lesson=\"".to_string(),
+        };
+        for end in ["\"", "#"] {
+            main = main.replace(&format!("{from}{end}"), &format!("{to}{end}"));
+        }
+    }
+    main
+}
+
+/// The manifest of a package.
+fn manifest<'n>(
+    page: &LessonPage,
+    files: impl Iterator<Item = &'n String>,
+    options: &SiteOptions,
+    scorm: ScormOptions,
+) -> String {
+    let is_graded = page.elements.iter().any(|element| !element.is_lab);
+    let id = short_hash(&[options.title().as_bytes(), b"\n", page.name.as_bytes()]);
+    let title = escape(&page.title);
+    let mut out = format!(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
+         <manifest identifier=\"labspec-{id}\" version=\"1\" xmlns=\"http://www.imsglobal.org/xsd/imscp_v1p1\" \
+         xmlns:adlcp=\"http://www.adlnet.org/xsd/adlcp_v1p3\" xmlns:adlseq=\"http://www.adlnet.org/xsd/adlseq_v1p3\" \
+         xmlns:imsss=\"http://www.imsglobal.org/xsd/imsss\">\n\
+         <metadata><schema>ADL SCORM</schema><schemaversion>2004 4th Edition</schemaversion></metadata>\n\
+         <organizations default=\"lesson\">\n\
+         <organization identifier=\"lesson\" adlseq:objectivesGlobalToSystem=\"false\">\n<title>{title}</title>\n\
+         <item identifier=\"item\" identifierref=\"page\">\n<title>{title}</title>\n{}</item>\n</organization>\n</organizations>\n",
+        if is_graded { sequencing(scorm.passing) } else { String::new() }
+    );
+    let kind = if is_graded { "sco" } else { "asset" };
+    let start = escape(&address(&page.name));
+    let _ = writeln!(
+        out,
+        "<resources>\n<resource identifier=\"page\" type=\"webcontent\" adlcp:scormType=\"{kind}\" href=\"{start}\">\n<file href=\"{start}\"/>"
+    );
+    for name in files {
+        let _ = writeln!(out, "<file href=\"{}\"/>", escape(&address(name)));
+    }
+    out.push_str("</resource>\n</resources>\n</manifest>\n");
+    out
+}
+
+/// The page itself reports whether it is completed and passed; a learning system assumes neither.
+fn sequencing(passing: Option<f64>) -> String {
+    let objective = passing.map_or(String::new(), |share| {
+        format!(
+            "<imsss:objectives><imsss:primaryObjective objectiveID=\"score\" satisfiedByMeasure=\"true\">\
+             <imsss:minNormalizedMeasure>{share}</imsss:minNormalizedMeasure></imsss:primaryObjective></imsss:objectives>"
+        )
+    });
+    format!(
+        "<imsss:sequencing>{objective}<imsss:deliveryControls completionSetByContent=\"true\" objectiveSetByContent=\"true\"/></imsss:sequencing>\n"
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lesson::{Element, PageBlock};
+
+    fn lesson(name: &str, title: &str, content: &str, has_quiz: bool) -> LessonPage {
+        let element = |is_lab| Element { id: "x".into(), title: "X".into(), is_lab, questions: 1 };
+        let block = PageBlock { kind: "quiz", span: 0..0, content: content.into(), after: String::new() };
+        LessonPage {
+            name: name.into(),
+            title: title.into(),
+            lead: String::new(),
+            has_heading: true,
+            blocks: vec![block],
+            elements: vec![element(true), element(!has_quiz)],
+            sections: Vec::new(),
+            embedded: BTreeMap::new(),
+            model_folder: None,
+            has_math: false,
+        }
+    }
+
+    /// A folder with the scripts of pages.
+    fn scripts() -> (tempfile::TempDir, PageFiles) {
+        let folder = tempfile::tempdir().unwrap();
+        let files = PageFiles::of_names(folder.path());
+        (folder, files)
+    }
+
+    /// The files of a package.
+    fn unpack(archive: &[u8]) -> BTreeMap<String, String> {
+        let read = rawzip::ZipArchive::from_slice(archive).unwrap();
+        let mut entries = read.entries();
+        let mut files = BTreeMap::new();
+        while let Some(entry) = entries.next_entry().unwrap() {
+            let data = read.get_entry(entry.wayfinder()).unwrap();
+            let bytes = miniz_oxide::inflate::decompress_to_vec(data.data()).unwrap();
+            let name = String::from_utf8(entry.file_path().as_ref().to_vec()).unwrap();
+            assert!(
+                files.insert(name.clone(), String::from_utf8(bytes).unwrap()).is_none(),
+                "{name} is there twice"
+            );
+        }
+        files
+    }
+
+    const QUIZ: &str = "<lesson-quiz id=\"q\"></lesson-quiz><a href=\"../b.html#part\">b</a> <a href=\"../files/d%20e.csv\">d</a> \
+                        <a href=\"https://x.org/\">x</a><a href=\"#here\">here</a>";
+
+    #[test]
+    fn a_package_has_what_its_page_needs_and_lists_it() {
+        let (folder, page_files) = scripts();
+        let pages = [
+            lesson("week 1/a.html", "A & \"B\" <c>", QUIZ, true),
+            lesson("b.html", "B", "<p>text</p>", false),
+        ];
+        let copy = |name: &str| SiteFile::Copy(folder.path().join(name));
+        let copied = BTreeMap::from([
+            ("files/d e.csv".to_string(), copy("site.js")),
+            ("files/other.csv".to_string(), copy("site.js")),
+        ]);
+        let options = SiteOptions { lang: "en".into(), ..SiteOptions::default() };
+        let write = |scorm| write_packages(&pages, &options, scorm, &copied, &page_files).unwrap();
+        let packages = write(ScormOptions { passing: Some(0.6) });
+        assert_eq!(
+            packages,
+            write(ScormOptions { passing: Some(0.6) }),
+            "the same course gives the same bytes"
+        );
+        assert_eq!(packages.keys().collect::<Vec<_>>(), ["scorm/b.zip", "scorm/week 1/a.zip"]);
+        let a = unpack(&packages["scorm/week 1/a.zip"]);
+        let manifest = roxmltree::Document::parse(&a["imsmanifest.xml"]).unwrap();
+        let all = |tag: &str| {
+            manifest.descendants().filter(|node| node.tag_name().name() == tag).collect::<Vec<_>>()
+        };
+        let listed: Vec<_> = all("file").iter().filter_map(|file| file.attribute("href")).collect();
+        let mut expected: Vec<_> =
+            a.keys().filter(|name| *name != MANIFEST).map(|name| address(name)).collect();
+        expected.sort_by_key(|name| name != "week%201/a.html");
+        assert_eq!(listed, expected);
+        assert!(listed.contains(&"files/d%20e.csv") && listed.contains(&"page/labspec.wasm"), "{listed:?}");
+        assert!(
+            !a.contains_key("files/other.csv")
+                && !a.contains_key("page/preview.js")
+                && !a.contains_key("page/katex.js")
+        );
+        assert_eq!(all("title")[1].text(), Some("A & \"B\" <c>"));
+        assert_eq!(all("minNormalizedMeasure")[0].text(), Some("0.6"));
+        assert_eq!(all("schemaversion")[0].text(), Some("2004 4th Edition"));
+        let resource = all("resource")[0];
+        assert_eq!(resource.attribute("href"), Some("week%201/a.html"));
+        assert_eq!(resource.attribute(("http://www.adlnet.org/xsd/adlcp_v1p3", "scormType")), Some("sco"));
+        let b = unpack(&packages["scorm/b.zip"]);
+        assert!(
+            b["imsmanifest.xml"].contains("scormType=\"asset\"")
+                && !b["imsmanifest.xml"].contains("sequencing")
+        );
+        let without = unpack(&write(ScormOptions::default())["scorm/week 1/a.zip"]);
+        assert!(
+            !without["imsmanifest.xml"].contains("minNormalizedMeasure")
+                && !without["week 1/a.html"].contains("passing")
+        );
+    }
+
+    #[test]
+    fn a_page_reports_grades_and_leads_nowhere_that_the_package_has_not() {
+        let (_folder, page_files) = scripts();
+        let pages = [lesson("week 1/a.html", "A", QUIZ, true), lesson("b.html", "B", "", true)];
+        let page = |base: Option<&str>| {
+            let options =
+                SiteOptions { lang: "en".into(), base: base.map(String::from), ..SiteOptions::default() };
+            let scorm = ScormOptions { passing: Some(0.6) };
+            let packages = write_packages(&pages, &options, scorm, &BTreeMap::new(), &page_files).unwrap();
+            unpack(&packages["scorm/week 1/a.zip"]).remove("week 1/a.html").unwrap()
+        };
+        let html = page(None);
+        assert!(html.contains("<lesson-quiz grades=\"scorm\" passing=\"0.6\" id=\"q\">"), "{html}");
+        assert!(
+            html.contains("<a class=\"dead-link\" data-lesson=\"#part\">b</a>")
+                && html.contains("href=\"#here\""),
+            "{html}"
+        );
+        assert!(html.contains("<a target=\"_blank\" rel=\"noopener\" href=\"https://x.org/\">"), "{html}");
+        assert!(
+            !html.contains("index.html") && !html.contains("labs.html") && !html.contains("data-offline"),
+            "{html}"
+        );
+        let html = page(Some("https://example.org/m/"));
+        assert!(html.contains("rel=\"noopener\" href=\"https://example.org/m/b.html#part\">b</a>"), "{html}");
+    }
+}
