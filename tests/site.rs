@@ -242,8 +242,8 @@ fn pictures_of_textures_are_copied_with_their_model() {
     let model = |file: &str| {
         format!(
             "<mujoco><compiler texturedir='t'/><asset><texture name='f' type='2d' file='{file}'/>\
-             <texture name='c' type='cube' fileup='up.png'/><material name='f' texture='f'/></asset>\
-             <worldbody><geom type='plane' size='1 1 1' material='f'/><body pos='0 0 1'><freejoint/><geom size='0.1'/></body></worldbody></mujoco>"
+             <texture name='c' type='cube' fileup='up.png'/><material name='f' texture='f'/><material name='c' texture='c'/></asset>\
+             <worldbody><geom type='plane' size='1 1 1' material='f'/><body pos='0 0 1'><freejoint/><geom size='0.1' material='c'/></body></worldbody></mujoco>"
         )
     };
     let lesson = "# T\n\n```lab simlab\n{\"model\": \"floor\", \"stopAt\": 0.01}\n```\n";

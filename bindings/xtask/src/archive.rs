@@ -96,8 +96,9 @@ fn pack(root: &Path, program: &Path, scripts: &Path, name: &str) -> Result<Vec<u
 
 /// The files of a folder, in the order of their names.
 fn files_of(folder: &Path) -> Result<Vec<PathBuf>, String> {
-    let read = || fs::read_dir(folder)?.map(|entry| Ok(entry?.path())).collect::<std::io::Result<Vec<_>>>();
-    let mut all = read().map_err(|e| format!("{}: {e}", folder.display()))?;
+    let failed = |e: std::io::Error| format!("{}: {e}", folder.display());
+    let entries = fs::read_dir(folder).map_err(failed)?.map(|entry| entry.map(|entry| entry.path()));
+    let mut all = entries.collect::<Result<Vec<_>, _>>().map_err(failed)?;
     all.retain(|path| path.is_file());
     all.sort();
     Ok(all)
