@@ -15,6 +15,7 @@ mod constrained;
 mod course;
 mod courses;
 mod dimensions;
+mod docs_site;
 mod evidence;
 mod examples;
 mod false_claims;

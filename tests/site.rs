@@ -3,9 +3,10 @@
 
 #![allow(clippy::unwrap_used)]
 
+use crate::docs_site::values;
 use crate::program::{Done, run_in};
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Replacements of the scripts and styles of pages.
 const PAGE: [&str; 11] = [
@@ -40,8 +41,24 @@ fn build(folder: &Path, more: &[&str]) -> Done {
     run_in(folder, &[&["build", "course", "--out", "site", "--page", "page"], more].concat())
 }
 
-fn page(folder: &Path, name: &str) -> String {
+/// A page of the site.
+pub(crate) fn page(folder: &Path, name: &str) -> String {
     std::fs::read_to_string(folder.join("site").join(name)).unwrap()
+}
+
+/// The files of the site, by their names in it.
+pub(crate) fn all_files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let (site, mut all) = (folder.join("site"), BTreeMap::new());
+    let mut open = vec![site.clone()];
+    while let Some(path) = open.pop() {
+        if path.is_dir() {
+            open.extend(std::fs::read_dir(path).unwrap().map(|entry| entry.unwrap().path()));
+        } else {
+            let name = path.strip_prefix(&site).unwrap().to_str().unwrap().to_string();
+            all.insert(name, std::fs::read(&path).unwrap());
+        }
+    }
+    all
 }
 
 /// A lesson, built.
@@ -120,6 +137,58 @@ fn every_part_of_a_course_has_its_place() {
 }
 
 #[test]
+fn several_folders_are_one_site_whose_first_page_is_a_lesson() {
+    let folder = course(&[
+        ("labspec.toml", ""),
+        (
+            "docs/README.md",
+            "# Guide\n\n[a](../lessons/a.md#falling), [b](more/b.md), [code](../src/main.rs#L3), [all](../src/), [none](../src/none.rs)\n",
+        ),
+        ("docs/more/b.md", "# More\n\n[back](../README.md#guide)\n"),
+        ("lessons.md", "# Not asked for\n"),
+        ("lessons/a.md", TRUE_LESSON),
+        ("lessons/models/ball.xml", BALL),
+        ("src/main.rs", "fn main() {}\n"),
+    ]);
+    let arguments = ["build", "course/docs", "course/lessons/a.md", "--out", "site", "--page", "page"];
+    let named = ["--index", "course/docs/README.md", "--sources", "https://example.org/tree"];
+    let done = run_in(folder.path(), &[&arguments[..], &named].concat());
+    assert!(done.code < 2, "{}{}", done.stdout, done.stderr);
+    let index = page(folder.path(), "index.html");
+    for link in [
+        "lessons/a.html#falling",
+        "docs/more/b.html",
+        "https://example.org/tree/src/main.rs#L3",
+        "https://example.org/tree/src",
+    ] {
+        assert!(index.contains(&format!("href=\"{link}\"")), "{link}: {index}");
+    }
+    assert!(index.contains("<span class=\"dead-link\">none</span>"), "{index}");
+    assert!(page(folder.path(), "docs/more/b.html").contains("href=\"../../index.html#guide\""));
+    let list = page(folder.path(), "lessons.html");
+    assert!(
+        list.contains("href=\"lessons/a.html#lab-1\">Fall</a>") && list.contains("href=\"index.html\">Guide")
+    );
+    assert!(
+        index.contains("href=\"lessons.html\">All pages</a>") && !list.contains("Not asked for"),
+        "{index}"
+    );
+    // Without the two options, the first page is the list, and a link to a source is none.
+    let done = run_in(folder.path(), &arguments);
+    assert!(done.code < 2, "{}{}", done.stdout, done.stderr);
+    assert!(page(folder.path(), "docs/README.html").contains("<span class=\"dead-link\">code</span>"));
+    assert!(page(folder.path(), "index.html").contains("href=\"docs/README.html\">Guide"));
+    for (wrong, why) in [
+        (["--index", "course/lessons.md"], "is not among the lessons"),
+        (["--index", "course/none.md"], "is not among the lessons"),
+        (["--sources", "javascript:x"], "write an address"),
+    ] {
+        let done = run_in(folder.path(), &[&arguments[..], &wrong].concat());
+        assert!(done.code == 2 && done.stderr.contains(why), "{wrong:?}: {}", done.stderr);
+    }
+}
+
+#[test]
 fn a_lab_has_its_results_without_scripts() {
     let folder = course(&[
         ("models/ball.xml", BALL),
@@ -166,6 +235,47 @@ fn a_model_with_files_is_copied_with_them() {
         "{}",
         done.stdout
     );
+}
+
+#[test]
+fn pictures_of_textures_are_copied_with_their_model() {
+    let model = |file: &str| {
+        format!(
+            "<mujoco><compiler texturedir='t'/><asset><texture name='f' type='2d' file='{file}'/>\
+             <texture name='c' type='cube' fileup='up.png'/><material name='f' texture='f'/><material name='c' texture='c'/></asset>\
+             <worldbody><geom type='plane' size='1 1 1' material='f'/><body pos='0 0 1'><freejoint/><geom size='0.1' material='c'/></body></worldbody></mujoco>"
+        )
+    };
+    let lesson = "# T\n\n```lab simlab\n{\"model\": \"floor\", \"stopAt\": 0.01}\n```\n";
+    let (there, missing) = (model("floor.png"), model("none.png"));
+    let files = [
+        ("a.md", lesson),
+        ("models/t/floor.png", "a picture"),
+        ("models/t/up.png", "another"),
+        ("labspec.toml", ""),
+    ];
+    let folder = course(&[&files[..], &[("models/floor.xml", &there)]].concat());
+    let done = build(folder.path(), &[]);
+    assert_eq!(done.code, 0, "{}{}", done.stdout, done.stderr);
+    let html = page(folder.path(), "a.html");
+    assert!(html.contains("data-models=\"models/1/\"") && !html.contains("data-name=\"floor\""), "{html}");
+    let copied =
+        ["floor.xml", "t/floor.png", "t/up.png"].map(|name| page(folder.path(), &format!("models/1/{name}")));
+    assert_eq!(copied, [there.as_str(), "a picture", "another"]);
+    // The hash of the page changes with the picture, so that a preview shows it.
+    let hash = |html: &str| values(html, "data-models-hash").next().unwrap().to_string();
+    std::fs::write(folder.path().join("course/models/t/floor.png"), "a new picture").unwrap();
+    build(folder.path(), &[]);
+    assert_ne!(hash(&page(folder.path(), "a.html")), hash(&html));
+    // A picture that is missing is reported, and the lab runs.
+    let folder = course(&[&files[..], &[("models/floor.xml", &missing)]].concat());
+    let done = build(folder.path(), &[]);
+    assert!(
+        done.code == 1 && done.stdout.contains("the model `floor` reads `t/none.png`"),
+        "{}",
+        done.stdout
+    );
+    assert!(page(folder.path(), "a.html").contains("after 0.010 s"));
 }
 
 #[test]
@@ -231,27 +341,15 @@ fn the_same_course_gives_the_same_bytes_without_names_of_this_machine() {
         ("a.md", TRUE_LESSON),
         ("b/c.md", "# C\n\n```lab simlab\n{\"model\": \"no\"}\n```\n"),
     ];
-    let written = |folder: &Path| {
-        let mut all = BTreeMap::new();
-        let mut open = vec![folder.join("site")];
-        while let Some(path) = open.pop() {
-            if path.is_dir() {
-                open.extend(std::fs::read_dir(path).unwrap().map(|entry| entry.unwrap().path()));
-            } else {
-                let name: PathBuf = path.strip_prefix(folder).unwrap().into();
-                all.insert(name, std::fs::read_to_string(&path).unwrap());
-            }
-        }
-        all
-    };
     let folders = [course(&files), course(&files)];
     let [one, two] = [0, 1].map(|i| {
         build(folders[i].path(), &[]);
-        written(folders[i].path())
+        all_files(folders[i].path())
     });
     assert_eq!(one, two);
     let name = folders[0].path().file_name().unwrap().to_str().unwrap();
-    assert!(one.values().all(|text| !text.contains(name)), "a page names a folder of this machine");
+    let names_it = |bytes: &Vec<u8>| String::from_utf8_lossy(bytes).contains(name);
+    assert!(!one.values().any(names_it), "a page names a folder of this machine");
     // A second build into the same folder removes what the course has no more.
     std::fs::remove_file(folders[0].path().join("course/b/c.md")).unwrap();
     build(folders[0].path(), &[]);

@@ -1,9 +1,9 @@
 //! The tutorial, executed literally: its files are written, its changes made, its commands run, and the output
-//! must equal that in the page.
+//! must equal that in the page. Before it, the page shows the example course in a browser, by the command of the README.
 //!
 //! A block belongs to the line of prose before it. `diff` changes the last file named in the line. `sh` is run, and a block of
 //! `text` after it is its output. Any other block is written into the last file named in the line, or appended to it if the
-//! line begins with "Add". A picture in the page is the file with that name.
+//! line begins with "Add". A drawing in the page (`.svg`) is the file with that name.
 //!
 //! `LABSPEC_BLESS=1 cargo test -p labspec-cli --test all tutorial` writes the current output into the page and its pictures.
 
@@ -69,6 +69,24 @@ impl Terminal {
     }
 }
 
+/// The command that shows the example course, and the picture of a lesson of it. `web/site/test` tests the page itself.
+const PREVIEW: &str = "    cargo run --manifest-path bindings/xtask/Cargo.toml -- preview\n";
+
+#[test]
+fn the_tutorial_begins_with_the_course_in_a_browser() {
+    let [page, readme, tool] = ["docs/tutorial.md", "README.md", "bindings/xtask/src/main.rs"]
+        .map(|name| std::fs::read_to_string(workspace().join(name)).unwrap());
+    let (start, _) = page.split_once("## Install the program").unwrap();
+    assert!(start.contains(PREVIEW) && readme.contains(PREVIEW), "the README has another command");
+    assert!(tool.contains("Some(\"preview\") =>"), "xtask has no such command");
+    let picture =
+        start.split("](").find(|part| part.starts_with("pictures/")).unwrap().split(')').next().unwrap();
+    assert!(
+        std::fs::read(workspace().join("docs").join(picture)).unwrap().starts_with(b"\x89PNG"),
+        "{picture}"
+    );
+}
+
 /// The only block that is not run: it builds the program, which already exists in the test.
 const BUILD: &str = "cargo install --path crates/cli --locked\nlabspec --version\n";
 
@@ -93,8 +111,8 @@ fn the_tutorial_is_followed_word_for_word() {
                     );
                     before = line;
                 }
-                if let Some((_, rest)) = line.split_once("](pictures/") {
-                    let name = rest.split(')').next().unwrap();
+                let picture = line.split_once("](pictures/").and_then(|(_, rest)| rest.split(')').next());
+                if let Some(name) = picture.filter(|name| name.ends_with(".svg")) {
                     let drawn = std::fs::read_to_string(terminal.here.join(name)).unwrap();
                     let stored = workspace().join("docs/pictures").join(name);
                     if bless {

@@ -2,15 +2,15 @@
 
 use crate::error::call_error;
 use crate::files::PageModels;
-use crate::{Models, Neighbours, finding, named, object};
+use crate::{Models, Neighbours, named, object};
 use labspec::bind::scene;
 use labspec::finding::Finding;
 use labspec::lint::ModelFolder;
+use labspec::report::to_value;
 use labspec::source::{MAX_FILE, SourceFile, Sources};
 use labspec::spec::Lesson;
 use labspec_assist::{
-    Completion, Context, Document, Edit, Hover, LabText, TextFix, Utf16Offsets, completions, fixes, hover,
-    lab_texts,
+    Context, Document, FindingAnswer, LabText, EditorText, Utf16Offsets, completions, fixes, hover, lab_texts,
 };
 use serde_json::{Value as Json, json};
 use std::path::PathBuf;
@@ -47,9 +47,9 @@ impl Assistant {
         let (context, document) = self.document(path, text)?;
         document.check(context);
         let lesson = document.read_lesson(context);
-        let offsets = Utf16Offsets::new(document.file.text());
+        let editor = EditorText::whole(document.file.text());
         let found = document.findings.iter();
-        object(&found.map(|f| with_fixes(f, &document.file, lesson.as_deref(), &offsets)).collect())
+        object(&found.map(|f| with_fixes(f, &document.file, lesson.as_deref(), &editor)).collect())
     }
 
     /// The completions at an offset.
@@ -57,8 +57,8 @@ impl Assistant {
         let (context, document) = self.document(path, text)?;
         let byte = Utf16Offsets::new(document.file.text()).to_byte(offset);
         let all = completions(document, context, byte);
-        let offsets = Utf16Offsets::new(document.file.text());
-        object(&all.iter().map(|c| completion(c, &offsets)).collect())
+        let editor = EditorText::whole(document.file.text());
+        object(&all.iter().filter_map(|c| editor.completion(c)).map(|c| to_value(&c)).collect())
     }
 
     /// The hover text at an offset; `null` if there is none.
@@ -66,10 +66,8 @@ impl Assistant {
         let (context, document) = self.document(path, text)?;
         let byte = Utf16Offsets::new(document.file.text()).to_byte(offset);
         let found = hover(document, context, byte);
-        let offsets = Utf16Offsets::new(document.file.text());
-        object(&found.map_or(Json::Null, |Hover { span, text }| {
-            json!({"start": offsets.of_byte(span.start), "end": offsets.of_byte(span.end), "text": text})
-        }))
+        let editor = EditorText::whole(document.file.text());
+        object(&to_value(&found.as_ref().and_then(|hover| editor.hover(hover))))
     }
 
     /// The edit that applies all safe fixes; `null` if there is none.
@@ -79,8 +77,8 @@ impl Assistant {
         document.check(context);
         let lesson = document.read_lesson(context);
         let found = lesson.and_then(|lesson| fixes::fix_all(document, &lesson, &context.models));
-        let offsets = Utf16Offsets::new(document.file.text());
-        object(&found.map_or(Json::Null, |f| fix(&f, &offsets)))
+        let editor = EditorText::whole(document.file.text());
+        object(&to_value(&found.as_ref().and_then(|fix| editor.fix(fix))))
     }
 
     /// The labs of a lesson.
@@ -130,34 +128,18 @@ impl Assistant {
     }
 }
 
-/// A finding with the edits that resolve it. Only findings of this file have any.
+/// A finding with the edits that resolve it. Only findings of this file have any. Its range counts bytes, because it may be in
+/// another file, whose text the page has.
 pub(crate) fn with_fixes(
     f: &Finding,
     file: &SourceFile,
     lesson: Option<&Lesson>,
-    offsets: &Utf16Offsets<'_>,
+    editor: &EditorText<'_>,
 ) -> Json {
     let mut all = Vec::new();
     if f.path == *file.path() {
         all.extend(fixes::fix(file, f));
         all.extend(lesson.and_then(|lesson| fixes::suppression(lesson, f)));
     }
-    let mut described = finding(f);
-    described["fixes"] = all.iter().map(|one| fix(one, offsets)).collect();
-    described
-}
-
-fn fix(f: &TextFix, offsets: &Utf16Offsets<'_>) -> Json {
-    json!({"title": f.title, "kind": f.kind.as_str(), "edits": [edit(&f.edit, offsets)]})
-}
-
-fn edit(e: &Edit, offsets: &Utf16Offsets<'_>) -> Json {
-    json!({"start": offsets.of_byte(e.span.start), "end": offsets.of_byte(e.span.end), "text": e.text})
-}
-
-fn completion(c: &Completion, offsets: &Utf16Offsets<'_>) -> Json {
-    json!({
-        "label": c.label, "kind": c.kind.as_str(), "detail": c.detail, "documentation": c.documentation, "filter": c.filter,
-        "edit": edit(&c.edit, offsets),
-    })
+    to_value(&FindingAnswer::new(f, f.span.clone(), all.iter().filter_map(|fix| editor.fix(fix)).collect()))
 }

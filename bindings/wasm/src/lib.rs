@@ -23,10 +23,9 @@ use js_sys::{Error, Float32Array, Float64Array, JSON};
 #[cfg(feature = "checker")]
 use labspec::Checker;
 use labspec::Player;
-use labspec::finding::Finding;
 use labspec::player::{ControlKind, DisplayedIn, Saved};
 #[cfg(feature = "checker")]
-use labspec_assist::Utf16Offsets;
+use labspec_assist::EditorText;
 use serde_json::{Value as Json, json};
 #[cfg(feature = "checker")]
 use std::collections::BTreeMap;
@@ -427,9 +426,8 @@ pub fn check(
         })
     });
     let lesson = &report.checked.lesson;
-    let offsets = Utf16Offsets::new(lesson.file.text());
-    let findings =
-        report.findings.iter().map(|f| assist::with_fixes(f, &lesson.file, Some(lesson), &offsets));
+    let editor = EditorText::whole(lesson.file.text());
+    let findings = report.findings.iter().map(|f| assist::with_fixes(f, &lesson.file, Some(lesson), &editor));
     let whole = json!({
         "outcome": report.outcome().as_str(),
         "findings": findings.collect::<Vec<_>>(),
@@ -452,14 +450,6 @@ pub(crate) fn named(texts: &JsValue) -> Result<BTreeMap<String, String>, JsValue
         Some((pair.get(0).as_string()?, pair.get(1).as_string()?))
     };
     Object::entries(object).iter().map(pair).collect::<Option<_>>().ok_or_else(wrong)
-}
-
-pub(crate) fn finding(f: &Finding) -> Json {
-    json!({
-        "code": f.code, "severity": f.severity.as_str(), "file": &*f.path, "start": f.span.start, "end": f.span.end,
-        "line": f.position.map(|p| p.line), "column": f.position.map(|p| p.column),
-        "message": f.message, "why": f.why, "help": f.help,
-    })
 }
 
 pub(crate) fn value(v: &labspec::Value) -> Json {

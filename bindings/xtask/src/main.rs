@@ -6,7 +6,7 @@
 //! `web/`. If the package `binaryen` is installed in `web/`, its `wasm-opt` reduces the size of the modules. If rustup is
 //! installed, the compilation target is added if necessary. `LABSPEC_PROFILE=quick` builds slow and large modules in a minute.
 //!
-//! `… -- release [FOLDER]` builds the program for this machine and packs it with its licences into
+//! `… -- release [FOLDER]` builds the program for this machine and packs it with its licences and the scripts of pages into
 //! `labspec-VERSION-TARGET.tar.gz`, next to a file with its SHA-256, in FOLDER (`target/release-archives`). The same
 //! program gives the same bytes.
 //!
@@ -14,6 +14,9 @@
 //! preview` find in `web/site/dist`.
 //!
 //! `… -- preview [LESSONS]` does the same once, then serves the lessons (`specs/lessons`) by `labspec preview`.
+//!
+//! `… -- site [FOLDER]` does the same once, then builds the documentation and the course of this repository by `labspec build`, in FOLDER
+//! (`docs/site`).
 
 mod archive;
 mod page;
@@ -28,9 +31,10 @@ fn main() -> ExitCode {
     let mut arguments = std::env::args_os().skip(1);
     let first = arguments.next();
     let done = match first.as_deref().and_then(|a| a.to_str()) {
-        Some("release") => archive::release(arguments.next().map(PathBuf::from)),
+        Some("release") => archive::release(arguments.next().map(PathBuf::from), || build(None)),
         Some("page") => build(None).and_then(|_| page::page()),
         Some("preview") => page::preview(arguments.next().map(PathBuf::from), || build(None)),
+        Some("site") => page::site(arguments.next().map(PathBuf::from), || build(None)),
         _ => build(first.map(PathBuf::from)),
     };
     match done {

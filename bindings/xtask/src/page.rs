@@ -23,21 +23,66 @@ pub(crate) fn preview(
     lessons: Option<PathBuf>,
     build: impl Fn() -> Result<PathBuf, String>,
 ) -> Result<PathBuf, String> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let files = root.join("web/site/dist");
+    let files = built(build)?;
+    let root = root();
+    let lessons = lessons.unwrap_or_else(|| root.join("specs/lessons"));
+    labspec(&root, "preview", |command| command.arg("--page").arg(&files).arg(&lessons))?;
+    Ok(files)
+}
+
+/// The documentation and the course of this repository as a site: the first page is the list of the documentation.
+const SITE: [&str; 5] =
+    ["docs", "specs/lessons", "web/labspec/README.md", "web/elements/README.md", "CHANGELOG.md"];
+const INDEX: &str = "docs/README.md";
+/// Links to other files of the repository lead there.
+const SOURCES: &str = "https://github.com/labspec/labspec/blob/main/";
+
+/// Builds the site of this repository into a folder (`docs/site`).
+pub(crate) fn site(
+    folder: Option<PathBuf>,
+    build: impl Fn() -> Result<PathBuf, String>,
+) -> Result<PathBuf, String> {
+    let files = built(build)?;
+    let root = root();
+    let folder = folder.unwrap_or_else(|| root.join("docs/site"));
+    labspec(&root, "build", |command| {
+        command.args(SITE.iter().map(|path| root.join(path))).arg("--index").arg(root.join(INDEX));
+        command
+            .args(["--title", "labspec", "--sources", SOURCES, "--page"])
+            .arg(&files)
+            .arg("--out")
+            .arg(&folder)
+    })?;
+    Ok(folder)
+}
+
+/// The folder of the scripts and styles of pages, which are built if they are missing.
+pub(crate) fn built(build: impl Fn() -> Result<PathBuf, String>) -> Result<PathBuf, String> {
+    let files = root().join("web/site/dist");
     if !files.exists() {
         build()?;
         page()?;
     }
-    let lessons = lessons.unwrap_or_else(|| root.join("specs/lessons"));
-    let mut command = Command::new("cargo");
-    command
+    Ok(files)
+}
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+/// Runs a command of the program, which cargo builds.
+fn labspec(root: &Path, name: &str, arguments: impl Fn(&mut Command) -> &mut Command) -> Result<(), String> {
+    let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    cargo
         .args(["run", "--locked", "--package", "labspec-cli", "--manifest-path"])
         .arg(root.join("Cargo.toml"));
-    command.args(["--", "preview", "--page"]).arg(&files).arg(&lessons);
-    match command.status().map_err(|e| format!("cannot run cargo: {e}"))?.success() {
-        true => Ok(files),
-        false => Err("`labspec preview` ended with an error".into()),
+    match arguments(cargo.args(["--", name]))
+        .status()
+        .map_err(|e| format!("cannot run cargo: {e}"))?
+        .success()
+    {
+        true => Ok(()),
+        false => Err(format!("`labspec {name}` ended with an error")),
     }
 }
 

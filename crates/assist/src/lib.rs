@@ -9,9 +9,11 @@
 //! * [`completions`], [`hover`]: of lessons, of their programs, and of MJCF (`mjcf`)
 //! * [`code`]: the programs in a lesson; [`elements`]: the names in a model; `start`: labs at their start
 //! * [`lab_texts`]: the labs of a lesson, each as a text of its own
+//! * [`EditorText`]: the answers for an editor on a page, as JSON: `bindings/wasm` and the server of the preview send them
 //! * [`Utf16Offsets`]: offsets as JavaScript counts them
 #![forbid(unsafe_code)]
 
+mod answer;
 mod check;
 pub mod code;
 mod complete;
@@ -26,6 +28,7 @@ mod start;
 mod tag;
 mod utf16;
 
+pub use answer::{CompletionAnswer, EditAnswer, EditorText, FindingAnswer, FixAnswer, HoverAnswer};
 pub use complete::completions;
 pub use document::{Context, Document};
 pub use hover::hover;

@@ -22,12 +22,19 @@ use std::path::{Path, PathBuf};
 /// BuildArguments of `build`.
 #[derive(clap::Args, Debug)]
 pub(super) struct BuildArguments {
-    /// The folder of lessons
-    #[arg(value_name = "FOLDER")]
-    folder: PathBuf,
+    /// A folder of lessons, or several folders and lessons below one folder
+    #[arg(value_name = "FOLDER", required = true)]
+    paths: Vec<PathBuf>,
     /// The folder of the site. It is created, or it holds an earlier site, which is replaced
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
+    /// The lesson that is the first page [default: a list of the lessons]
+    #[arg(long, value_name = "LESSON")]
+    index: Option<PathBuf>,
+    /// The address of the repository, or of the folder that holds labspec.toml, on the web: links to files that the site does not
+    /// copy lead there
+    #[arg(long, value_name = "URL", value_parser = base_address)]
+    sources: Option<String>,
     /// The address where the site will be, for sitemap.xml and canonical links
     #[arg(long, value_name = "URL", value_parser = base_address)]
     base_url: Option<String>,
@@ -99,21 +106,24 @@ fn share(text: &str) -> Result<f64, String> {
 
 /// Checks the course and writes its site.
 pub(super) fn build(a: &BuildArguments) -> Result<CommandOutcome, Failure> {
-    if !a.folder.is_dir() {
-        return Err(format!("{} is not a folder of lessons", printable_path(&a.folder)));
-    }
+    let folder = course_folder(&a.paths)?;
     let page_files = a.page.files()?;
-    let old = earlier_site(&a.folder, &a.out)?;
+    let old = earlier_site(&a.paths, &a.out)?;
     let results = check_course(a)?;
     if interrupted() {
         return Ok(CommandOutcome::Clean);
     }
     let models = |path: &Path| {
-        let named = std::slice::from_ref(&a.folder);
-        model_folder_within(&a.models, path, named).unwrap_or_else(|_| ModelFolder::unknown())
+        model_folder_within(&a.models, path, &a.paths).unwrap_or_else(|_| ModelFolder::unknown())
     };
-    let course =
-        Course { folder: &a.folder, lessons: &results.checked, ledger: &results.ledger, models: &models };
+    let course = Course {
+        folder: &folder,
+        index: a.index.as_deref(),
+        sources: a.sources.as_deref(),
+        lessons: &results.checked,
+        ledger: &results.ledger,
+        models: &models,
+    };
     let scorm = a.scorm.then_some(ScormOptions { passing: a.pass });
     let options = SiteOptions { scorm, ..a.page.site(a.base_url.clone()) };
     let site = build_site(&course, &options, &page_files)?;
@@ -121,10 +131,32 @@ pub(super) fn build(a: &BuildArguments) -> Result<CommandOutcome, Failure> {
     report(a, &results, &site)
 }
 
+/// The folder of the course: the named one, or the innermost folder around all named paths.
+fn course_folder(paths: &[PathBuf]) -> Result<PathBuf, Failure> {
+    if let [folder] = paths {
+        return match folder.is_dir() {
+            true => Ok(folder.clone()),
+            false => Err(format!("{} is not a folder of lessons", printable_path(folder))),
+        };
+    }
+    let mut folders = Vec::new();
+    for path in paths {
+        let real = path.canonicalize().map_err(|e| format!("cannot read {}: {e}", printable_path(path)))?;
+        let folder = if real.is_dir() { Some(real.as_path()) } else { real.parent() };
+        folders.extend(folder.map(Path::to_path_buf));
+    }
+    let holds_all = |folder: &&Path| folders.iter().all(|other| other.starts_with(folder));
+    let common = folders.first().and_then(|first| first.ancestors().find(holds_all));
+    // A folder without a parent holds everything on the machine.
+    common.filter(|folder| folder.parent().is_some()).map(Path::to_path_buf).ok_or_else(|| {
+        "the lessons are in no common folder; name lessons and folders below one folder".to_string()
+    })
+}
+
 /// Checks every lesson anew: a mark on a page states what this run has found.
 fn check_course(a: &BuildArguments) -> Result<CourseResults, Failure> {
     let request = CheckRequest {
-        paths: std::slice::from_ref(&a.folder),
+        paths: &a.paths,
         stdin: None,
         models: &a.models,
         level: CheckLevel::FULL,
@@ -173,11 +205,11 @@ fn report(a: &BuildArguments, results: &CourseResults, site: &Site) -> Result<Co
 }
 
 /// The files of the site that the folder holds. A folder with other content is refused, so that nothing is lost.
-fn earlier_site(course: &Path, out: &Path) -> Result<Vec<String>, Failure> {
+fn earlier_site(course: &[PathBuf], out: &Path) -> Result<Vec<String>, Failure> {
     let displayed = printable_path(out);
-    if let (Ok(course), Ok(out)) = (course.canonicalize(), out.canonicalize())
-        && course.starts_with(&out)
-    {
+    let holds =
+        |out: &Path| course.iter().any(|path| path.canonicalize().is_ok_and(|path| path.starts_with(out)));
+    if out.canonicalize().is_ok_and(|out| holds(&out)) {
         return Err(format!("{displayed} holds the course itself; name another folder with --out"));
     }
     let is_empty = match fs::read_dir(out) {

@@ -1,4 +1,5 @@
-//! Where the links and images of a lesson lead: to pages of the course, to files that the site copies, to the web, or nowhere.
+//! Where the links and images of a lesson lead: to pages of the course, to files that the site copies, to the sources of the course on
+//! the web, to other addresses of the web, or nowhere.
 
 use crate::html::Addresses;
 use crate::names::{address_from, parts_inside};
@@ -63,6 +64,8 @@ pub(crate) struct Places {
     pub(crate) folder: PathBuf,
     /// The root below which files may be read.
     pub(crate) root: PathBuf,
+    /// The address of the root on the web, ending in `/`: there, a link finds a file that the site does not have.
+    pub(crate) sources: Option<String>,
     /// The name of the page of each lesson, by its real path.
     pub(crate) pages: BTreeMap<PathBuf, String>,
     /// The anchors of each page.
@@ -107,7 +110,8 @@ impl Addresses for PageLinks<'_> {
             };
             return Some(format!("{}{anchor}", address_from(self.page, page)));
         }
-        self.copied(&real, &DOCUMENTS).or_else(|| self.copied(&real, &PICTURES)).filter(|_| !is_vector(&real))
+        let copied = self.copied(&real, &DOCUMENTS).or_else(|| self.copied(&real, &PICTURES));
+        copied.filter(|_| !is_vector(&real)).or_else(|| self.source(&real, anchor))
     }
 
     fn image(&mut self, target: &str) -> Option<String> {
@@ -149,6 +153,13 @@ impl PageLinks<'_> {
         }
         let real = self.folder.join(&*decoded).canonicalize().ok()?;
         real.starts_with(&self.places.root).then_some(real)
+    }
+
+    /// The address of a file among the sources of the course.
+    fn source(&self, real: &Path, anchor: &str) -> Option<String> {
+        let parts = parts_inside(&self.places.root, real)?;
+        let anchor = if anchor.is_empty() { String::new() } else { format!("#{}", address(anchor)) };
+        Some(format!("{}{}{anchor}", self.places.sources.as_ref()?, address(&parts.join("/"))))
     }
 
     /// The address of a file that the site copies, if it has one of these endings.
@@ -249,5 +260,17 @@ mod tests {
         }
         let copied: Vec<&String> = links.places.copied.keys().collect();
         assert_eq!(copied, ["files/data.csv", "files/p.png", "files/p.svg"]);
+        // With the address of the sources, other files below the root are there.
+        links.places.sources = Some("https://example.org/tree/".into());
+        for (target, address) in [
+            ("x.html#L3", Some("https://example.org/tree/x.html#L3")),
+            ("p.svg", Some("https://example.org/tree/p.svg")),
+            (".hidden.txt", Some("https://example.org/tree/.hidden.txt")),
+            ("data.csv", Some("../files/data.csv")),
+            ("none.csv", None),
+            ("../secret.txt", None),
+        ] {
+            assert_eq!(links.link(target).as_deref(), address, "{target}");
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! The models of a course: compiled once for what a page shows without JavaScript, and delivered to the elements.
 //!
-//! A model that consists of one file is part of the page. One with further files (meshes, height fields, included text) is copied
-//! with them into a folder of the site, from which the element fetches them.
+//! A model that consists of one file is part of the page. One with further files (meshes, height fields, included text, pictures of
+//! textures) is copied with them into a folder of the site, from which the element fetches them.
 
 use labspec::bind::scene::Models;
 use labspec::lint::ModelFolder;

@@ -25,6 +25,11 @@ pub(crate) struct PageNames {
 }
 
 impl PageNames {
+    /// Keeps a name for a page that is not a lesson, or for a lesson with a name of its own.
+    pub(crate) fn reserve(&mut self, name: &str) {
+        self.used.insert(name.to_lowercase());
+    }
+
     /// The name for a path of these parts.
     pub(crate) fn name(&mut self, parts: &[String]) -> String {
         let (file, folders) =

@@ -6,7 +6,10 @@ use crate::text::{address, escape};
 use labspec::report::counted;
 use std::fmt::Write;
 
-/// The index: every lesson with its first lines, its labs and its quizzes.
+/// The title of the list of the lessons, where it is not the first page.
+pub(crate) const LIST_TITLE: &str = "All pages";
+
+/// The list of the lessons, each with its first lines, its labs and its quizzes.
 pub(crate) fn index_main(title: &str, pages: &[LessonPage]) -> String {
     let mut out = format!("<h1>{}</h1>\n<ol class=\"lessons\">\n", escape(title));
     for page in pages {

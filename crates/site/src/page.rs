@@ -1,6 +1,7 @@
 //! The frame of every page: its head with the policy, the navigation, the main part, the foot.
 
 use crate::names::root_from;
+use crate::overview::LIST_TITLE;
 use crate::text::escape;
 use std::fmt::Write;
 
@@ -26,6 +27,8 @@ pub(crate) struct Page<'p> {
     pub(crate) attributes: String,
     /// The main part, written.
     pub(crate) main: String,
+    /// The page with the list of the lessons, where it is not the first page.
+    pub(crate) list: Option<&'p str>,
     /// Links to the pages before and after, written.
     pub(crate) neighbours: String,
     /// What the preview adds to the head, written.
@@ -90,9 +93,11 @@ impl Page<'_> {
 
     /// What is above the main part.
     fn header(&self, root: &str) -> String {
+        let list =
+            self.list.map_or(String::new(), |name| format!("<a href=\"{root}{name}\">{LIST_TITLE}</a> "));
         format!(
             "<a class=\"skip\" href=\"#main\">Skip to the text</a>\n\
-             <header class=\"top\">\n<nav aria-label=\"Course\"><a class=\"home\" href=\"{root}index.html\">{}</a> \
+             <header class=\"top\">\n<nav aria-label=\"Course\"><a class=\"home\" href=\"{root}index.html\">{}</a> {list}\
              <a href=\"{root}labs.html\">Labs</a></nav>\n\
              <form class=\"search\" role=\"search\" hidden><label><span class=\"hidden\">Search</span>\
              <input type=\"search\" placeholder=\"Search\" autocomplete=\"off\" spellcheck=\"false\"></label>\

@@ -6,7 +6,7 @@ use crate::links::Places;
 use crate::models::ModelShelf;
 use crate::names::{PageNames, parts_inside};
 use crate::offline::{service_worker, sitemap};
-use crate::overview::{index_main, labs_main, neighbours};
+use crate::overview::{LIST_TITLE, index_main, labs_main, neighbours};
 use crate::page::Page;
 use crate::scorm::{ScormOptions, write_packages};
 use crate::search::search_index;
@@ -15,6 +15,7 @@ use crate::verified::hex_of;
 use labspec::check::Checked;
 use labspec::ledger::Ledger;
 use labspec::lint::{ModelFolder, root_of};
+use labspec::report::printable_path;
 use labspec::spec::{FileKind, Lesson, kind_of};
 use labspec::threads;
 use std::collections::{BTreeMap, BTreeSet};
@@ -24,12 +25,20 @@ use std::path::{Path, PathBuf};
 pub const MANIFEST: &str = "labspec-site.json";
 /// The title of a course without one.
 const TITLE: &str = "Lessons";
+/// The first page.
+const INDEX: &str = "index.html";
+/// The list of the lessons, where one of them is the first page.
+const LESSONS: &str = "lessons.html";
 
 /// A checked course.
 #[derive(Clone, Copy)]
 pub struct Course<'a> {
     /// The folder of the course: the names of its pages are the paths of the lessons in it.
     pub folder: &'a Path,
+    /// The lesson that is the first page. Without it, the first page is the list of the lessons.
+    pub index: Option<&'a Path>,
+    /// The address on the web of the root of the course, ending in `/`. Links to files that the site does not have lead there.
+    pub sources: Option<&'a str>,
     /// The lessons, in order. JSON files among them have no page.
     pub lessons: &'a [Checked],
     /// The claims of this check.
@@ -107,8 +116,11 @@ struct Listed<'l> {
 pub(crate) fn write_pages(course: &Course<'_>, for_author: bool) -> CoursePages {
     let folder = course.folder.canonicalize().unwrap_or_else(|_| course.folder.to_path_buf());
     let root = root_of(&folder, std::slice::from_ref(&folder));
-    let mut out =
-        CoursePages { places: Places { folder, root, ..Places::default() }, ..CoursePages::default() };
+    let sources = course.sources.map(String::from);
+    let mut out = CoursePages {
+        places: Places { folder, root, sources, ..Places::default() },
+        ..CoursePages::default()
+    };
     let listed = list_lessons(course, &mut out.places);
     let outlines: Vec<Outline> = listed
         .iter()
@@ -143,6 +155,11 @@ pub(crate) fn write_pages(course: &Course<'_>, for_author: bool) -> CoursePages 
 /// The lessons that have pages, each with its name in the site.
 fn list_lessons<'l>(course: &Course<'l>, places: &mut Places) -> Vec<Listed<'l>> {
     let mut names = PageNames::default();
+    let index = course.index.and_then(|path| path.canonicalize().ok());
+    if index.is_some() {
+        names.reserve(INDEX);
+        names.reserve(LESSONS);
+    }
     let mut all = Vec::new();
     for (index, checked) in course.lessons.iter().enumerate() {
         let lesson = &checked.lesson;
@@ -153,7 +170,10 @@ fn list_lessons<'l>(course: &Course<'l>, places: &mut Places) -> Vec<Listed<'l>>
         let real = path.canonicalize().unwrap_or_else(|_| path.clone());
         let file =
             || real.file_name().map(|name| vec![name.to_string_lossy().into_owned()]).unwrap_or_default();
-        let name = names.name(&parts_inside(&places.folder, &real).unwrap_or_else(file));
+        let name = match index.as_ref() == Some(&real) {
+            true => INDEX.to_string(),
+            false => names.name(&parts_inside(&places.folder, &real).unwrap_or_else(file)),
+        };
         let folder = real.parent().unwrap_or(Path::new("")).to_path_buf();
         places.pages.insert(real, name.clone());
         all.push(Listed { index, lesson, name, path: path.clone(), folder });
@@ -184,7 +204,7 @@ pub(crate) fn missing_heading(page: &LessonPage) -> String {
 /// Writes a site.
 ///
 /// # Errors
-/// A file of the page cannot be read.
+/// A file of the page cannot be read, or the first page is not among the lessons.
 pub fn build_site(
     course: &Course<'_>,
     options: &SiteOptions,
@@ -193,30 +213,32 @@ pub fn build_site(
     let CoursePages { pages, shelf, places, .. } = write_pages(course, false);
     let mut site = Site { lessons: pages.len(), ..Site::default() };
     let base = options.base.as_deref();
+    let has_own_index = pages.iter().any(|page| page.name == INDEX);
+    if let Some(index) = course.index.filter(|_| !has_own_index) {
+        return Err(format!(
+            "{} is not among the lessons, so it cannot be the first page",
+            printable_path(index)
+        ));
+    }
+    let list = has_own_index.then_some(LESSONS);
     let mut add = |name: &str, page: Page<'_>| {
         let canonical = base.map(|base| format!("{base}{}", crate::text::address(name)));
-        let page =
-            Page { name, course: options.title(), lang: &options.lang, canonical, is_offline: true, ..page };
+        let page = Page {
+            name,
+            course: options.title(),
+            lang: &options.lang,
+            canonical,
+            list,
+            is_offline: true,
+            ..page
+        };
         site.files.insert(name.to_string(), SiteFile::Text(page.write()));
     };
     for (at, page) in pages.iter().enumerate() {
-        add(
-            &page.name,
-            Page {
-                title: &page.title,
-                description: &page.lead,
-                has_math: page.has_math,
-                attributes: lesson_attributes(page),
-                main: lesson_main(page),
-                neighbours: neighbours(&pages, at),
-                ..Page::default()
-            },
-        );
+        add(&page.name, lesson_frame(&pages, at, page));
     }
-    add(
-        "index.html",
-        Page { title: options.title(), main: index_main(options.title(), &pages), ..Page::default() },
-    );
+    let title = if has_own_index { LIST_TITLE } else { options.title() };
+    add(list.unwrap_or(INDEX), Page { title, main: index_main(title, &pages), ..Page::default() });
     add("labs.html", Page { title: "Labs", main: labs_main(&pages), ..Page::default() });
     site.verified = pages.iter().flat_map(|page| &page.blocks).map(|block| verified_in(&block.after)).sum();
     site.files.insert("search.json".into(), SiteFile::Text(search_index(&pages)));
@@ -244,6 +266,19 @@ pub(crate) fn lesson_main(page: &LessonPage) -> String {
     let blocks: String =
         page.blocks.iter().map(|block| format!("{}\n{}\n", wrapped(block), block.after)).collect();
     format!("{}{blocks}{}", missing_heading(page), embedded_models(page))
+}
+
+/// The page of a lesson, as far as it differs from those of others.
+fn lesson_frame<'p>(pages: &[LessonPage], at: usize, page: &'p LessonPage) -> Page<'p> {
+    Page {
+        title: &page.title,
+        description: &page.lead,
+        has_math: page.has_math,
+        attributes: lesson_attributes(page),
+        main: lesson_main(page),
+        neighbours: neighbours(pages, at),
+        ..Page::default()
+    }
 }
 
 /// The content of a block in an element of its kind.

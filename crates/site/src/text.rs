@@ -1,36 +1,7 @@
 //! Texts of lessons as parts of a page: as text, as attributes, and as JSON inside a script element.
 
-use labspec::report::printable;
+pub(crate) use labspec::report::html::escape;
 use std::fmt::Write;
-
-/// Escapes a text for the content of an element or a quoted attribute. Invisible characters become visible escapes.
-pub(crate) fn escape(text: &str) -> String {
-    let mut out = String::with_capacity(text.len() + 16);
-    for line in text.split_inclusive('\n') {
-        let (line, end) = line.strip_suffix('\n').map_or((line, ""), |line| (line, "\n"));
-        escape_line(line, &mut out);
-        out.push_str(end);
-    }
-    out
-}
-
-fn escape_line(line: &str, out: &mut String) {
-    for (i, part) in line.split('\t').enumerate() {
-        if i > 0 {
-            out.push('\t');
-        }
-        for c in printable(part.trim_end_matches('\r')).chars() {
-            match c {
-                '&' => out.push_str("&amp;"),
-                '<' => out.push_str("&lt;"),
-                '>' => out.push_str("&gt;"),
-                '"' => out.push_str("&quot;"),
-                '\'' => out.push_str("&#39;"),
-                c => out.push(c),
-            }
-        }
-    }
-}
 
 /// JSON for a script element: nothing in it ends the element or opens another one.
 pub(crate) fn json_in_script(json: &str) -> String {

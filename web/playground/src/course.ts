@@ -1,10 +1,7 @@
 /** Labs of a course that is beside the page: lessons, and models in a folder `models`. */
 import { fetchModel } from "labspec-elements";
 import type { LabOfLesson } from "labspec-editor";
-import { isFileName, OpenError, type LessonAround, type Project } from "./project.js";
-
-/** The labs of a lesson, as the checker finds them. */
-export type FindLabs = (path: string, text: string) => Promise<readonly LabOfLesson[]>;
+import { isFileName, lessonAround, OpenError, type FindLabs, type LessonAround, type Project } from "./project.js";
 
 /** A lesson of the course with its labs, as the build lists them. */
 export interface ListedLesson {
@@ -56,9 +53,7 @@ export class Course {
       const has = labs.length === 0 ? "it has none" : `it has ${labs.map((one) => one.address).join(", ")}`;
       throw new OpenError(`${path} has no lab ${shorten(address === "" ? "#1" : address)}; ${has}.`);
     }
-    const isWhole = /\.json$/i.test(path) || text.slice(lab.start, lab.end) !== lab.json;
-    const lesson = isWhole ? null : { path, address: lab.address, before: text.slice(0, lab.start), after: text.slice(lab.end) };
-    return { lab, lesson, path };
+    return { lab, lesson: lessonAround(path, text, lab), path };
   }
 
   /** A model and its files, from the nearest folder `models` beside the lesson or above it. */

@@ -1,6 +1,6 @@
 /** Files that a reader drops or chooses: models, meshes, textures, labs, lessons, and archives of them. */
 import { unzipSync } from "fflate";
-import { isFileName, labOfModel, LAB_PATH, listedModels, OpenError, readObject, type Project } from "./project.js";
+import { isFileName, labOfModel, LAB_PATH, lessonAround, listedModels, OpenError, readObject, titleOf, type FindLabs, type LessonAround, type Project } from "./project.js";
 
 /** Files and bytes of one project. */
 const MOST_FILES = 500;
@@ -12,8 +12,20 @@ export interface GivenFile {
   readonly bytes: Uint8Array;
 }
 
-/** The labs of a lesson, as the checker finds them. */
-export type FindLabs = (path: string, text: string) => Promise<readonly { readonly json: string; readonly model: string | null }[]>;
+/** A lab among files that a reader has given. */
+export interface GivenLab {
+  /** `LESSON.md#1`, `LESSON.md#quiz-id.1` or `LAB.json`. */
+  readonly place: string;
+  readonly title: string;
+}
+
+/** What was opened: one of the labs among the files, and all of them. */
+export interface OpenedFiles {
+  readonly project: Project;
+  readonly labs: readonly GivenLab[];
+  /** The place of the lab that is open; `null` where no file has a lab. */
+  readonly place: string | null;
+}
 
 /** The files of a drop, of folders as well. */
 export async function filesOfDrop(transfer: DataTransfer): Promise<GivenFile[]> {
@@ -83,24 +95,35 @@ export function unpack(bytes: Uint8Array): GivenFile[] {
   return Object.entries(unpacked).map(([path, content]) => ({ path, bytes: content }));
 }
 
-/** A project of some files. Files with the same path replace those of `current` where no lab is among them. */
-export async function projectOf(given: readonly GivenFile[], current: Project | null, findLabs: FindLabs): Promise<Project> {
+/**
+ * A project of some files, with the lab at `place`, or the first one. Files with the same path replace those of `current` where no lab is
+ * among them.
+ */
+export async function openGiven(given: readonly GivenFile[], current: Project | null, findLabs: FindLabs, place: string | null = null): Promise<OpenedFiles> {
   const files = given.flatMap((file) => (/\.(zip|mjz)$/i.test(file.path) ? unpack(file.bytes) : [file]));
   if (files.length > MOST_FILES) throw tooMany();
   const usable = files.filter(({ path }) => isFileName(path) && !path.split("/").some((part) => part.startsWith(".")));
   if (usable.length === 0) throw new OpenError("There is no file that a lab can use.");
   const texts = new Map(usable.filter(({ path }) => /\.(xml|json|md|markdown)$/i.test(path)).map(({ path, bytes }) => [path, textOf(path, bytes)]));
-  const lab = await labAmong(texts, findLabs);
+  const labs = await labsAmong(texts, findLabs);
+  const lab = labs.find((one) => one.place === place) ?? labs[0] ?? null;
   const models = [...texts.keys()].filter((path) => /\.xml$/i.test(path));
-  if (lab === null && models.length === 0) return withFiles(usable, current);
+  if (lab === null && models.length === 0) return { project: withFiles(usable, current), labs: [], place: null };
+  return { project: projectOfLab(lab, usable, texts, models), labs: labs.map(({ place: at, title }) => ({ place: at, title })), place: lab?.place ?? null };
+}
+
+/** The project of a lab, or of a model alone, with all files around it. */
+function projectOfLab(lab: FoundLab | null, usable: readonly GivenFile[], texts: ReadonlyMap<string, string>, models: readonly string[]): Project {
   const main = mainModel(models, texts, lab?.model ?? null);
   const listed = lab?.listed ?? {};
   const folder = main?.replace(/[^/]*$/, "") ?? "";
   const inside = (path: string): string => (path.startsWith(folder) ? path.slice(folder.length) : path);
   const own = Object.fromEntries(models.map((path) => [nameOf(inside(path)), texts.get(path) ?? ""]));
   const others = usable.filter(({ path }) => !texts.has(path)).map(({ path, bytes }) => [inside(path), bytes] as const);
-  const name = main === null ? (Object.keys(listed)[0] ?? null) : nameOf(inside(main));
-  return { lab: lab?.json ?? labOfModel(name ?? "model"), models: { ...listed, ...own }, files: Object.fromEntries(others), model: name, lesson: null };
+  const known: Record<string, string> = { ...listed, ...own };
+  const named = main === null ? (lab?.model ?? "") : nameOf(inside(main));
+  const model = known[named] === undefined ? (Object.keys(listed)[0] ?? null) : named;
+  return { lab: lab?.json ?? labOfModel(model ?? "model"), models: known, files: Object.fromEntries(others), model, lesson: lab?.lesson ?? null };
 }
 
 /** The name of a model: those in folders keep their paths, which only other models name. */
@@ -116,26 +139,31 @@ function textOf(path: string, bytes: Uint8Array): string {
   }
 }
 
-interface FoundLab {
+interface FoundLab extends GivenLab {
   readonly json: string;
   readonly model: string | null;
   /** Models that the lesson lists. */
   readonly listed: Readonly<Record<string, string>>;
+  readonly lesson: LessonAround | null;
 }
 
-/** The first lab among texts: of a JSON file, else of a lesson. */
-async function labAmong(texts: ReadonlyMap<string, string>, findLabs: FindLabs): Promise<FoundLab | null> {
+/** The labs among texts: of JSON files, then of lessons, where those of questions come after the others. */
+async function labsAmong(texts: ReadonlyMap<string, string>, findLabs: FindLabs): Promise<FoundLab[]> {
+  const found: FoundLab[] = [];
   for (const [path, text] of texts) {
     const json = path.endsWith(".json") ? readObject(text) : null;
     if (json === null || (json["model"] === undefined && json["xml"] === undefined)) continue;
-    return { json: text, model: typeof json["model"] === "string" ? json["model"] : null, listed: {} };
+    const model = typeof json["model"] === "string" ? json["model"] : null;
+    found.push({ place: path, title: titleOf(text), json: text, model, listed: {}, lesson: null });
   }
   for (const [path, text] of texts) {
     if (!/\.(md|markdown)$/i.test(path)) continue;
-    const [first] = await findLabs("lesson.md", text);
-    if (first !== undefined) return { json: first.json, model: first.model, listed: listedModels(text) };
+    const listed = listedModels(text);
+    for (const lab of await findLabs("lesson.md", text)) {
+      found.push({ place: `${path}${lab.address}`, title: lab.title, json: lab.json, model: lab.model, listed, lesson: lessonAround("lesson.md", text, lab) });
+    }
   }
-  return null;
+  return found;
 }
 
 /** The model that a lab names; else the one that no other includes, nearest to the top. */

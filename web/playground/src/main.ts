@@ -4,7 +4,7 @@ import { zipSync } from "fflate";
 import { checkClaims } from "./claims.js";
 import { Course } from "./course.js";
 import { byId, h, saveFile } from "./dom.js";
-import { filesOfDrop, filesOfInput, projectOf, type GivenFile } from "./import.js";
+import { filesOfDrop, filesOfInput, openGiven, type GivenFile, type GivenLab } from "./import.js";
 import { decodeProject, encodeProject } from "./link.js";
 import { LAB_PATH, lessonOf, modelPath, modelsOf, OpenError, titleOf, type Project } from "./project.js";
 import { sayClaims, showClaims, showFindings, type FindingActions } from "./results.js";
@@ -22,6 +22,8 @@ const findings = new Map<string, readonly CheckedFinding[]>();
 let runFindings: readonly CheckedFinding[] = [];
 /** The state of the lab in the link that was opened, until the project changes. */
 let linkedState = "";
+/** The files that a reader has opened, whose labs can be chosen. */
+let given: readonly GivenFile[] = [];
 let project: Project = { lab: "{}", models: {}, files: {}, model: null, lesson: null };
 let editors: { model: EditorHandle | null; lab: EditorHandle } | null = null;
 let [turn, timer, claimsTimer] = [0, 0, 0];
@@ -35,8 +37,9 @@ const reasonOf = (e: unknown): string => (e instanceof Error ? e.message : Strin
 
 const findLabs = (path: string, text: string): ReturnType<typeof checker.ask<"labs">> => checker.ask("labs", path, text);
 
-/** Opens a project in the editors and on the stage. */
-async function open(next: Project, told: string, state = ""): Promise<void> {
+/** Opens a project in the editors and on the stage; `labs` can be chosen in its place. */
+async function open(next: Project, told: string, state = "", labs: readonly GivenLab[] = [], place: string | null = null): Promise<void> {
+  offerLabs(labs, place);
   project = next;
   linkedState = state;
   findings.clear();
@@ -154,9 +157,25 @@ async function attempt(what: () => Promise<void>): Promise<void> {
 }
 
 async function openFiles(files: readonly GivenFile[]): Promise<void> {
-  const next = await projectOf(files, editors === null ? null : project, findLabs);
+  const { project: next, labs, place } = await openGiven(files, editors === null ? null : project, findLabs);
   history.replaceState(history.state, "", location.pathname);
-  await open(next, `${files.length} ${files.length === 1 ? "file" : "files"} opened.`);
+  if (place !== null) given = files;
+  await open(next, `${files.length} ${files.length === 1 ? "file" : "files"} opened.`, "", labs, place);
+}
+
+/** Opens another lab of the files that are open. */
+async function openLab(chosen: string): Promise<void> {
+  const { project: next, labs, place } = await openGiven(given, null, findLabs, chosen);
+  history.replaceState(history.state, "", location.pathname);
+  await open(next, `${chosen} is open.`, "", labs, place);
+}
+
+/** Shows the labs and questions that can be chosen, if there are several. */
+function offerLabs(labs: readonly GivenLab[], place: string | null): void {
+  const choice = byId("labs", HTMLSelectElement);
+  choice.replaceChildren(...labs.map((lab) => h("option", { value: lab.place }, lab.title === "" ? lab.place : `${lab.title} (${lab.place})`)));
+  choice.value = place ?? "";
+  byId("labs-choice", HTMLLabelElement).hidden = labs.length < 2;
 }
 
 async function share(): Promise<void> {
@@ -207,6 +226,7 @@ function listen(): void {
     mountEditors();
     void update();
   });
+  byId("labs", HTMLSelectElement).addEventListener("change", (event) => void attempt(() => openLab((event.target as HTMLSelectElement).value)));
   byId("examples", HTMLSelectElement).addEventListener("change", (event) => {
     const place = (event.target as HTMLSelectElement).value;
     if (place !== "") void attempt(() => openPlace(place));

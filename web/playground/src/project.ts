@@ -1,5 +1,9 @@
 /** What is open in the playground: a lab, its models and their files. */
+import type { LabOfLesson } from "labspec-editor";
 import type { Models } from "labspec/slim";
+
+/** The labs of a lesson, as the checker finds them. */
+export type FindLabs = (path: string, text: string) => Promise<readonly LabOfLesson[]>;
 
 export interface Project {
   /** The JSON of the lab. */
@@ -20,6 +24,12 @@ export interface LessonAround {
   readonly address: string;
   readonly before: string;
   readonly after: string;
+}
+
+/** The lesson around one of its labs; `null` if the lab is not a part of its text as it stands there. */
+export function lessonAround(path: string, text: string, lab: LabOfLesson): LessonAround | null {
+  const isWhole = /\.json$/i.test(path) || text.slice(lab.start, lab.end) !== lab.json;
+  return isWhole ? null : { path, address: lab.address, before: text.slice(0, lab.start), after: text.slice(lab.end) };
 }
 
 /** Why something cannot be opened: a sentence for readers. */

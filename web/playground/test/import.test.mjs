@@ -5,7 +5,8 @@ import { zipSync } from "fflate";
 import { Checker } from "labspec/checker";
 import { load, random } from "./load.mjs";
 
-const { fitting, isFileName, labOfModel, lessonOf, listedModels, OpenError, projectOf, unpack } = await load("import.ts", "project.ts", "values.ts");
+const { fitting, isFileName, labOfModel, lessonOf, listedModels, openGiven, OpenError, unpack } = await load("import.ts", "project.ts", "values.ts");
+const projectOf = async (...args) => (await openGiven(...args)).project;
 const bytes = (text) => new TextEncoder().encode(text);
 const file = (path, text) => ({ path, bytes: bytes(text) });
 const findLabs = async (path, text) => new Checker().labs(path, text);
@@ -33,6 +34,25 @@ test("a lab names its model, in a lesson or as JSON", async () => {
   assert.deepEqual([json.model, json.lab], ["drop", '{"model": "drop"}']);
   const lesson = await projectOf([file("a.md", '# A\n\n```lab\n{"model": "drop", "title": "T"}\n```\n'), ...models], null, findLabs);
   assert.deepEqual([lesson.model, lesson.lab], ["drop", '{"model": "drop", "title": "T"}']);
+});
+
+test("of a lesson, every lab and the simulation of every question can be opened", async () => {
+  const fence = (info, json) => `\`\`\`${info}\n${JSON.stringify(json)}\n\`\`\`\n`;
+  const question = { q: "Where?", kind: "predict", options: ["a", "b"], answer: 0, sim: { model: "other", title: "Q" } };
+  const lesson = [fence("lab simlab", { model: "drop", title: "One" }), fence("quiz", { id: "z", questions: [{ q: "?", options: ["a", "b"], answer: 0 }, question] }), fence("lab simlab", { model: "other" })].join("\n");
+  const given = [file("week/a.md", lesson), file("week/models/drop.xml", "<mujoco model='d'/>"), file("week/models/other.xml", "<mujoco model='o'/>"), file("week/x.json", '{"model": "drop", "title": "J"}')];
+  const first = await openGiven(given, null, findLabs);
+  assert.deepEqual([first.place, first.project.model, first.project.lesson], ["week/x.json", "drop", null]);
+  assert.deepEqual(first.labs, [
+    { place: "week/x.json", title: "J" }, { place: "week/a.md#1", title: "One" }, { place: "week/a.md#2", title: "" }, { place: "week/a.md#z.2", title: "Q" },
+  ]);
+  const asked = await openGiven(given, null, findLabs, "week/a.md#z.2");
+  assert.deepEqual([asked.place, asked.project.model, JSON.parse(asked.project.lab)], ["week/a.md#z.2", "other", question.sim]);
+  const { before, after, address } = asked.project.lesson;
+  assert.deepEqual([`${before}${asked.project.lab}${after}`, address], [lesson, "#z.2"]);
+  // A place that is not there is the first lab; a model alone has no labs to choose.
+  assert.equal((await openGiven(given, null, findLabs, "week/a.md#9")).place, "week/x.json");
+  assert.deepEqual((await openGiven([file("drop.xml", "<mujoco/>")], null, findLabs)).labs, []);
 });
 
 test("a lesson that was downloaded is opened again", async () => {

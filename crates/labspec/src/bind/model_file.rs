@@ -23,7 +23,7 @@ pub struct Compiled {
     pub findings: Vec<Finding>,
     /// The files of the findings; empty when there are no findings.
     pub files: Vec<SourceFile>,
-    /// The other files that were read.
+    /// The other files that were read, and those of textures, which only views read.
     pub parts: Vec<ModelFile>,
 }
 
@@ -135,6 +135,7 @@ pub(super) fn compile_source(
 ) -> Compiled {
     let remembering = RecordingFiles::new(files, hash);
     let checked = compile(file.text(), &remembering, name);
+    remembering.record_textures(checked.model.as_ref());
     let mut sources = Vec::new();
     if !checked.findings.is_empty() {
         sources.push(file.clone());

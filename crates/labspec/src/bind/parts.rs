@@ -1,7 +1,9 @@
-//! The files from which a model was compiled and digests of their contents, which identify the model of a cached result.
+//! The files of a model and digests of their contents, which identify the model of a cached result: those from which it was compiled,
+//! and those of its textures.
 
 use crate::source::SourceFile;
-use labspec_core::xml::{FileProblem, Files};
+use labspec_core::Model;
+use labspec_core::xml::{FileProblem, Files, MAX_FILE};
 use labspec_finding::order;
 use serde::{Deserialize, Serialize};
 use std::cell::RefCell;
@@ -10,7 +12,7 @@ use std::path::Path;
 /// Computes a digest of some bytes. The owner of a cache provides it.
 pub type Hash = fn(&[&[u8]]) -> String;
 
-/// A file from which a model was compiled.
+/// A file of a model.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct ModelFile {
     /// Its path relative to the folder of the model; empty for the model itself.
@@ -55,6 +57,18 @@ pub(super) struct RecordingFiles<'f> {
 impl<'f> RecordingFiles<'f> {
     pub(super) fn new(files: &'f dyn Files, hash: Option<Hash>) -> RecordingFiles<'f> {
         RecordingFiles { files, hash, parts: RefCell::default() }
+    }
+
+    /// Records the files of the textures of a model. The compiler does not read them; a page that shows the model does.
+    pub(super) fn record_textures(&self, model: Option<&Model>) {
+        if self.hash.is_none() {
+            return;
+        }
+        let textures = model.into_iter().flat_map(|model| &model.textures);
+        for path in textures.flat_map(|texture| &texture.files).filter(|path| !path.is_empty()) {
+            // A missing picture is recorded as well: the result changes when the file appears.
+            let _ = self.read(path, MAX_FILE);
+        }
     }
 
     /// Every requested file, once each.

@@ -3,10 +3,10 @@
 
 use super::http::Refused;
 use labspec::bind::scene::Models;
-use labspec::finding::{Finding, Severity};
 use labspec::lint::ModelFolder;
+use labspec::report::to_value;
 use labspec::source::{MAX_FILE, Sources};
-use labspec_assist::{Completion, Context, Document, Edit, TextFix, Utf16Offsets, completions, fixes, hover};
+use labspec_assist::{Context, Document, EditorText, FindingAnswer, TextFix, completions, fixes, hover};
 use serde_json::{Value, json};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -67,90 +67,29 @@ impl Opened {
         self.document.check(&self.context);
         let lesson = self.document.read_lesson(&self.context);
         let file = &self.document.file;
-        let place = BlockPlace::new(file.text(), &self.block);
+        let editor = EditorText::block(file.text(), self.block.clone());
         let here = self.document.findings.iter().filter(|f| f.path == *file.path());
         let all = here.filter_map(|f| {
-            let (start, end) = place.range(&f.span)?;
+            let range = editor.range(&f.span)?;
             let suppression = lesson.as_ref().and_then(|lesson| fixes::suppression(lesson, f));
-            let fixes = fixes::fix(file, f).into_iter().chain(suppression);
-            let fixes: Vec<Value> = fixes.filter_map(|fix| place.fix(&fix)).collect();
-            Some(finding(f, start, end, &fixes))
+            let fixes: Vec<TextFix> = fixes::fix(file, f).into_iter().chain(suppression).collect();
+            let fixes = fixes.iter().filter_map(|fix| editor.fix(fix)).collect();
+            Some(to_value(&FindingAnswer::new(f, range, fixes)))
         });
         json!({ "findings": all.collect::<Vec<_>>() })
     }
 
     fn completions(&mut self, offset: usize) -> Value {
-        let byte = BlockPlace::new(self.document.file.text(), &self.block).byte(offset);
+        let byte = EditorText::block(self.document.file.text(), self.block.clone()).byte(offset);
         let all = completions(&mut self.document, &self.context, byte);
-        let place = BlockPlace::new(self.document.file.text(), &self.block);
-        json!({ "completions": all.iter().filter_map(|c| place.completion(c)).collect::<Vec<_>>() })
+        let editor = EditorText::block(self.document.file.text(), self.block.clone());
+        json!({ "completions": all.iter().filter_map(|c| editor.completion(c)).collect::<Vec<_>>() })
     }
 
     fn hover(&mut self, offset: usize) -> Value {
-        let byte = BlockPlace::new(self.document.file.text(), &self.block).byte(offset);
+        let byte = EditorText::block(self.document.file.text(), self.block.clone()).byte(offset);
         let found = hover(&mut self.document, &mut self.context, byte);
-        let place = BlockPlace::new(self.document.file.text(), &self.block);
-        let found = found.and_then(|hover| {
-            let (start, end) = place.range(&hover.span)?;
-            Some(json!({ "start": start, "end": end, "text": hover.text }))
-        });
-        json!({ "hover": found })
-    }
-}
-
-fn finding(f: &Finding, start: usize, end: usize, fixes: &[Value]) -> Value {
-    let severity = match f.severity {
-        Severity::Error => "error",
-        Severity::Warning => "warning",
-        Severity::Note => "note",
-    };
-    json!({
-        "code": f.code, "severity": severity, "start": start, "end": end, "message": f.message, "why": f.why, "help": f.help,
-        "fixes": fixes,
-    })
-}
-
-/// The place of the block in the lesson.
-struct BlockPlace<'t> {
-    offsets: Utf16Offsets<'t>,
-    block: &'t Range<usize>,
-    /// The offset of the block, and that of its end.
-    first: usize,
-    last: usize,
-}
-
-impl<'t> BlockPlace<'t> {
-    fn new(text: &'t str, block: &'t Range<usize>) -> BlockPlace<'t> {
-        let offsets = Utf16Offsets::new(text);
-        let (first, last) = (offsets.of_byte(block.start), offsets.of_byte(block.end));
-        BlockPlace { offsets, block, first, last }
-    }
-
-    /// The byte of the lesson at an offset of the block.
-    fn byte(&self, offset: usize) -> usize {
-        self.offsets.to_byte(self.first.saturating_add(offset).min(self.last))
-    }
-
-    /// A range of the lesson as offsets of the block; `None` where it reaches beyond the block.
-    fn range(&self, span: &Range<usize>) -> Option<(usize, usize)> {
-        let is_inside = self.block.start <= span.start && span.end <= self.block.end;
-        let offset = |byte: usize| self.offsets.of_byte(byte) - self.first;
-        is_inside.then(|| (offset(span.start), offset(span.end)))
-    }
-
-    fn edit(&self, edit: &Edit) -> Option<Value> {
-        let (start, end) = self.range(&edit.span)?;
-        Some(json!({ "start": start, "end": end, "text": edit.text }))
-    }
-
-    fn fix(&self, fix: &TextFix) -> Option<Value> {
-        Some(json!({ "title": fix.title, "kind": fix.kind.as_str(), "edits": [self.edit(&fix.edit)?] }))
-    }
-
-    fn completion(&self, c: &Completion) -> Option<Value> {
-        Some(json!({
-            "label": c.label, "kind": c.kind.as_str(), "detail": c.detail, "documentation": c.documentation, "filter": c.filter,
-            "edit": self.edit(&c.edit)?,
-        }))
+        let editor = EditorText::block(self.document.file.text(), self.block.clone());
+        json!({ "hover": found.as_ref().and_then(|hover| editor.hover(hover)) })
     }
 }

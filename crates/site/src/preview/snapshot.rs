@@ -64,6 +64,8 @@ impl Snapshot {
         let written = write_pages(
             &Course {
                 folder: material.folder,
+                index: None,
+                sources: None,
                 lessons: &course.lessons,
                 ledger: &course.ledger,
                 models: &models,

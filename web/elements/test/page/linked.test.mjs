@@ -1,7 +1,7 @@
 // Linked labs, programs that play and pause, the mark of proved claims, textures in Chromium.
 import assert from "node:assert/strict";
 import test, { after } from "node:test";
-import { crc32, deflateSync } from "node:zlib";
+import { png } from "./png.mjs";
 import { drop, dropLab, labOf, launch, opened, pageOf, serve, watchErrors } from "./site.mjs";
 import { load } from "../load.mjs";
 
@@ -22,23 +22,6 @@ const claimed = {
   verify: { runs: { fall: { until: 0.2 } }, measure: { z: "final(data.qpos[2])" }, says: [["0.80", "z"]] }, title: "The ball is at 0.80 after 0.2 s",
 };
 const proof = (claims, content) => `verified='${JSON.stringify({ claims, version: "0.1.0", hash: contentHash(content) })}'`;
-/** A PNG picture of rows of colours. */
-function png(rows) {
-  const chunk = (kind, data) => {
-    const body = Buffer.concat([Buffer.from(kind), data]);
-    const [length, sum] = [Buffer.alloc(4), Buffer.alloc(4)];
-    length.writeUInt32BE(data.length);
-    sum.writeUInt32BE(crc32(body));
-    return Buffer.concat([length, body, sum]);
-  };
-  const header = Buffer.alloc(13);
-  header.writeUInt32BE(rows[0].length, 0);
-  header.writeUInt32BE(rows.length, 4);
-  header.set([8, 2, 0, 0, 0], 8);
-  const pixels = Buffer.concat(rows.map((row) => Buffer.from([0, ...row.flat()])));
-  return Buffer.concat([Buffer.from([0x89, 0x50, 0x4e, 0x47, 13, 10, 26, 10]), chunk("IHDR", header), chunk("IDAT", deflateSync(pixels)), chunk("IEND", Buffer.alloc(0))]);
-}
-
 const checker = 'checker="/web/labspec/dist/checker/checker-browser.js"';
 const server = await serve({
   "/linked.html": pageOf(`${labOf({ ...plain, controls: [gravity(), kick] }, { id: "a", models: { drop }, attributes: 'link="pair"' })}

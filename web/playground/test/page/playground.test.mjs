@@ -200,6 +200,32 @@ test("files are dropped, chosen, and taken from archives and folders", async (t)
   errors.none();
 });
 
+test("all labs and questions of a lesson can be chosen", async (t) => {
+  const { page, errors } = await open(t);
+  await upToDate(page);
+  const choice = page.getByRole("combobox", { name: "Of the lesson" });
+  assert.equal(await choice.isVisible(), false);
+  const question = { kind: "predict", q: "Higher?", options: ["yes", "no"], answer: 0, sim: { title: "A question", model: "drop", setup: "data.qpos[2] = 2", readouts: [{ label: "height (m)", expr: "data.qpos[2]" }] } };
+  const lesson = `# L\n\n\`\`\`lab simlab\n${lab}\n\`\`\`\n\n\`\`\`lab simlab\n${lab.replace("A drop", "Another").replace("xpos[2]", "xpos[2] + 1")}\n\`\`\`\n\n\`\`\`quiz\n${JSON.stringify({ id: "q", questions: [question] })}\n\`\`\`\n`;
+  await page.setInputFiles("#files", [
+    { name: "lesson.md", mimeType: "text/markdown", buffer: Buffer.from(lesson) }, { name: "drop.xml", mimeType: "text/xml", buffer: Buffer.from(drop) },
+  ]);
+  await choice.waitFor();
+  assert.deepEqual(await choice.locator("option").allTextContents(), ["A drop (lesson.md#1)", "Another (lesson.md#2)", "A question (lesson.md#q.1)"]);
+  await page.waitForFunction(() => document.querySelector("sim-lab").texts[0] === "1.000");
+  for (const [place, height] of [["lesson.md#2", "2.000"], ["lesson.md#q.1", "2.000"], ["lesson.md#1", "1.000"]]) {
+    await choice.selectOption(place);
+    await upToDate(page);
+    await page.waitForFunction((text) => document.querySelector("sim-lab").texts[0] === text, height);
+    assert.equal(await choice.inputValue(), place);
+  }
+  // The choice belongs to these files.
+  await page.getByRole("combobox", { name: "Example" }).selectOption({ index: 1 });
+  await upToDate(page);
+  assert.equal(await choice.isVisible(), false);
+  errors.none();
+});
+
 test("a link holds what is written; the lesson that is downloaded is opened again", async (t) => {
   const { page, errors } = await open(t);
   await upToDate(page);

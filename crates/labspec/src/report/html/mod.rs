@@ -30,3 +30,4 @@ mod verdict;
 
 pub use material::Material;
 pub use page::page;
+pub use text::escape;

@@ -1,6 +1,6 @@
 //! Escapes text of lessons for a page: it is displayed as text and has no other effect.
 
-use crate::printable::printable;
+use crate::printable::printable_line;
 use std::borrow::Cow;
 
 /// Maximum number of characters of a text. A longer text is truncated, which the page states.
@@ -37,19 +37,25 @@ pub(super) fn rest(text: &str) -> String {
     if left == 0 { String::new() } else { format!(" … ({left} more characters)") }
 }
 
-/// Escapes characters that have a meaning in HTML; invisible characters are written as escapes.
-pub(super) fn escape(text: &str) -> String {
+/// Escapes a text for the content of an element or a quoted attribute. Invisible characters are written as escapes; tabs and line
+/// breaks stay, the latter as `\n`.
+pub fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len() + 16);
-    for c in printable(text).chars() {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            '\'' => out.push_str("&#39;"),
-            // Noncharacters of Unicode.
-            '\u{fffe}' | '\u{ffff}' => out.extend(c.escape_default()),
-            c => out.push(c),
+    for (i, line) in text.split('\n').enumerate() {
+        if i > 0 {
+            out.push('\n');
+        }
+        for c in printable_line(line.strip_suffix('\r').unwrap_or(line)).chars() {
+            match c {
+                '&' => out.push_str("&amp;"),
+                '<' => out.push_str("&lt;"),
+                '>' => out.push_str("&gt;"),
+                '"' => out.push_str("&quot;"),
+                '\'' => out.push_str("&#39;"),
+                // Noncharacters of Unicode.
+                '\u{fffe}' | '\u{ffff}' => out.extend(c.escape_default()),
+                c => out.push(c),
+            }
         }
     }
     out
@@ -103,6 +109,7 @@ mod tests {
         assert_eq!(plain(" two\n lines\t"), "two lines");
         assert_eq!(code("a\n\tb < c"), "<code>a\n  b &lt; c</code>");
         assert_eq!(text("x"), "<bdi>x</bdi>");
+        assert_eq!(escape("a\t<\r\n\u{202e}b\rc\n"), "a\t&lt;\n\\u{202e}b\\rc\n");
     }
 
     #[test]

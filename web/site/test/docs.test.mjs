@@ -1,0 +1,94 @@
+// The documentation and the example course as one site, as `xtask site` builds it: every link leads somewhere, nothing is said on the
+// console, the search covers both. A model with a picture shows it.
+import assert from "node:assert/strict";
+import { mkdirSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import test, { after } from "node:test";
+import { png } from "../../elements/test/page/png.mjs";
+import { folder, labspec, launch, open, opened, repository, serve } from "./pages.mjs";
+
+const SOURCES = "https://github.com/labspec/labspec/blob/main/";
+const suite = { after };
+const browser = await launch();
+after(() => browser.close());
+const out = join(folder(suite), "site");
+const at = (name) => join(repository, name);
+const paths = ["docs", "specs/lessons", "web/labspec/README.md", "web/elements/README.md", "CHANGELOG.md"].map(at);
+const built = labspec("build", ...paths, "--index", at("docs/README.md"), "--title", "labspec", "--sources", SOURCES, "--out", out);
+assert.equal(built.status, 0, built.stdout + built.stderr);
+const site = (await serve(suite, out)).url;
+
+/** What leads from a page to other places of the site, and what is wrong in it. */
+const read = (page) => page.evaluate(() => {
+  const links = [...document.querySelectorAll("a[href]")].map((link) => link.href);
+  const dead = [...document.querySelectorAll(".dead-link, .image-missing, .image-elsewhere")].map((part) => part.textContent);
+  const empty = [...document.images].filter((image) => image.complete && image.naturalWidth === 0).map((image) => image.src);
+  return { links, ids: [...document.querySelectorAll("[id]")].map((element) => element.id), dead: [...dead, ...empty] };
+});
+
+test("from the first page, every page is reached; no link is dead, and the console is silent", async (t) => {
+  const { page, none } = await open(t, browser, site);
+  assert.equal(await page.locator("h1").textContent(), "Documentation");
+  const waiting = [`${site}index.html`];
+  const [seen, wanted, files] = [new Map(), [], new Set()];
+  for (const address of waiting) {
+    const response = await page.goto(address);
+    assert.equal(response.status(), 200, address);
+    const { links, ids, dead } = await read(page);
+    assert.deepEqual(dead, [], address);
+    seen.set(address, new Set(ids));
+    for (const link of links) {
+      const { href, hash } = new URL(link);
+      const target = hash === "" ? href : href.slice(0, -hash.length);
+      if (!target.startsWith(site)) {
+        assert.match(target, /^(https?|mailto):/, `${address}: ${target}`);
+        if (target.startsWith(SOURCES)) files.add(target);
+      } else if (!target.endsWith(".html")) {
+        assert.equal((await page.request.get(target)).status(), 200, `${address}: ${target}`);
+      } else {
+        wanted.push([address, target, decodeURIComponent(hash.slice(1))]);
+        if (!waiting.includes(target)) waiting.push(target);
+      }
+    }
+  }
+  for (const [from, target, id] of wanted) assert.ok(id === "" || seen.get(target)?.has(id), `${from} links to ${target}#${id}`);
+  assert.ok(seen.size > 45 && [...seen.keys()].some((address) => address.endsWith("specs/lessons/10-the-book-that-turns-over.html")), String(seen.size));
+  t.diagnostic(`${seen.size} pages, ${wanted.length} links between them, ${files.size} to the sources`);
+  none();
+});
+
+test("the search covers the documentation and the lessons", async (t) => {
+  const { page, none } = await open(t, browser, `${site}docs/measured/speed.html`);
+  for (const [words, title, address] of [["pendul alik", "Two pendulums that begin alike", /specs\/lessons\/06-[^#]*#/], ["baseline findings", /baseline/i, /docs\/[^#]*\.html/]]) {
+    await page.getByRole("searchbox", { name: "Search" }).fill(words);
+    const first = page.locator(".results a").first();
+    await first.getByText(title).first().waitFor();
+    await first.click();
+    await page.waitForURL(address);
+  }
+  none();
+});
+
+test("a texture of a file is on the page", async (t) => {
+  const lessons = join(folder(t), "lessons");
+  mkdirSync(join(lessons, "models/pictures"), { recursive: true });
+  writeFileSync(join(lessons, "models/tiles.xml"), `<mujoco><compiler texturedir="pictures"/><asset><texture name="tiles" type="2d" file="tiles.png"/>
+    <material name="tiles" texture="tiles" specular="0"/></asset><worldbody><geom type="plane" size="2 2 .1" material="tiles"/></worldbody></mujoco>`);
+  writeFileSync(join(lessons, "models/pictures/tiles.png"), png(Array.from({ length: 32 }, (_, y) => Array.from({ length: 32 }, (_, x) => ((x < 16) === (y < 16) ? [255, 0, 0] : [0, 255, 0])))));
+  writeFileSync(join(lessons, "a.md"), "# Tiles\n\n```lab simlab\n{\"model\": \"tiles\"}\n```\n");
+  const made = labspec("build", lessons, "--out", join(lessons, "../site"));
+  assert.equal(made.status, 0, made.stdout + made.stderr);
+  const { page, none } = await open(t, browser, `${(await serve(t, join(lessons, "../site"))).url}a.html`);
+  await opened(page, "#lab-1");
+  await page.waitForFunction(() => {
+    const canvas = document.querySelector("sim-lab").shadowRoot.querySelector(".view canvas");
+    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    let [red, green] = [0, 0];
+    for (let i = 0; i < data.length; i += 4) {
+      if (data[i] > 60 && data[i + 1] < data[i] / 3) red++;
+      if (data[i + 1] > 60 && data[i] < data[i + 1] / 3) green++;
+    }
+    return red > 500 && green > 500;
+  });
+  none();
+});
