@@ -155,8 +155,8 @@ pub(crate) fn write_pages(course: &Course<'_>, for_author: bool) -> CoursePages 
 /// The lessons that have pages, each with its name in the site.
 fn list_lessons<'l>(course: &Course<'l>, places: &mut Places) -> Vec<Listed<'l>> {
     let mut names = PageNames::default();
-    let index = course.index.and_then(|path| path.canonicalize().ok());
-    if index.is_some() {
+    let first = course.index.and_then(|path| path.canonicalize().ok());
+    if first.is_some() {
         names.reserve(INDEX);
         names.reserve(LESSONS);
     }
@@ -170,7 +170,7 @@ fn list_lessons<'l>(course: &Course<'l>, places: &mut Places) -> Vec<Listed<'l>>
         let real = path.canonicalize().unwrap_or_else(|_| path.clone());
         let file =
             || real.file_name().map(|name| vec![name.to_string_lossy().into_owned()]).unwrap_or_default();
-        let name = match index.as_ref() == Some(&real) {
+        let name = match first.as_ref() == Some(&real) {
             true => INDEX.to_string(),
             false => names.name(&parts_inside(&places.folder, &real).unwrap_or_else(file)),
         };

@@ -228,7 +228,7 @@ impl Shared<'_> {
             Some(SiteFile::Text(text)) => {
                 Response { status: 200, kind, is_copied: false, body: text.clone().into_bytes() }
             }
-            Some(SiteFile::Bytes(body)) => Answer { status: 200, kind, is_copied, body: body.clone() },
+            Some(SiteFile::Bytes(body)) => Response { status: 200, kind, is_copied, body: body.clone() },
             Some(SiteFile::Copy(file)) => match std::fs::read(file) {
                 Ok(body) => Response { status: 200, kind, is_copied, body },
                 Err(_) => Response::refusal(404, "this file cannot be read"),
