@@ -26,7 +26,11 @@ fn dead_links(pages: &BTreeMap<String, String>, files: &BTreeSet<String>) -> Vec
             let (path, anchor) = link.split_once('#').unwrap_or((link, ""));
             let mut parts: Vec<&str> = folder.split('/').filter(|part| !part.is_empty()).collect();
             for part in path.split('/').filter(|part| !part.is_empty()) {
-                if part == ".." { drop(parts.pop()) } else { parts.push(part) }
+                if part == ".." {
+                    parts.pop();
+                } else {
+                    parts.push(part);
+                }
             }
             let target = if path.is_empty() { name.clone() } else { parts.join("/").replace("%20", " ") };
             let is_folder = files.iter().any(|file| file.starts_with(&format!("{target}/")));

@@ -189,10 +189,10 @@ fn sequencing(passing: Option<f64>) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lesson::{Element, PageBlock};
+    use crate::lesson::{PageBlock, PageElement};
 
     fn lesson(name: &str, title: &str, content: &str, has_quiz: bool) -> LessonPage {
-        let element = |is_lab| Element { id: "x".into(), title: "X".into(), is_lab, questions: 1 };
+        let element = |is_lab| PageElement { id: "x".into(), title: "X".into(), is_lab, questions: 1 };
         let block = PageBlock { kind: "quiz", span: 0..0, content: content.into(), after: String::new() };
         LessonPage {
             name: name.into(),
