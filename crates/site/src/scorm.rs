@@ -8,9 +8,10 @@
 use crate::archive::{Deflated, deflate, write_archive};
 use crate::assets::PageFiles;
 use crate::lesson::LessonPage;
+use crate::lesson_main::{lesson_attributes, lesson_main};
 use crate::names::address_from;
+use crate::options::{ScormOptions, SiteFile, SiteOptions};
 use crate::page::Page;
-use crate::site::{SiteFile, SiteOptions, lesson_attributes, lesson_main};
 use crate::text::{address, escape};
 use crate::verified::short_hash;
 use std::collections::BTreeMap;
@@ -21,13 +22,6 @@ use std::path::{Path, PathBuf};
 const MANIFEST: &str = "imsmanifest.xml";
 /// The folder of a site with the packages.
 const FOLDER: &str = "scorm";
-
-/// What packages say of grades.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct ScormOptions {
-    /// The share of right answers that passes, from 0 to 1. Without it, a lesson is neither passed nor failed.
-    pub passing: Option<f64>,
-}
 
 /// Writes a package for each lesson of a site. Their names in the site are those of the pages with the ending `.zip`.
 ///

@@ -2,15 +2,17 @@
 
 use crate::assets::PageFiles;
 use crate::lesson::{LessonPage, LessonSource, Outline, write_lesson};
+use crate::lesson_main::{lesson_attributes, lesson_main};
 use crate::links::Places;
 use crate::models::ModelShelf;
 use crate::names::{PageNames, parts_inside};
 use crate::offline::{service_worker, sitemap};
+use crate::options::{SiteFile, SiteOptions};
 use crate::overview::{LIST_TITLE, index_main, labs_main, neighbours};
 use crate::page::Page;
-use crate::scorm::{ScormOptions, write_packages};
+use crate::scorm::write_packages;
 use crate::search::search_index;
-use crate::text::{escape, json_in_script};
+use crate::text::json_in_script;
 use crate::verified::hex_of;
 use labspec::check::Checked;
 use labspec::ledger::Ledger;
@@ -23,8 +25,6 @@ use std::path::{Path, PathBuf};
 
 /// The file that lists the others. A folder with it may be written again.
 pub const MANIFEST: &str = "labspec-site.json";
-/// The title of a course without one.
-const TITLE: &str = "Lessons";
 /// The first page.
 const INDEX: &str = "index.html";
 /// The list of the lessons, where one of them is the first page.
@@ -45,37 +45,6 @@ pub struct Course<'a> {
     pub ledger: &'a Ledger,
     /// The folder of models of a lesson, by its path.
     pub models: &'a dyn Fn(&Path) -> ModelFolder,
-}
-
-/// What a site says of itself.
-#[derive(Clone, Debug, Default)]
-pub struct SiteOptions {
-    /// The title of the course.
-    pub title: Option<String>,
-    /// The language of the pages.
-    pub lang: String,
-    /// The address where the site will be, ending in `/`; with it, the site has a map for search engines.
-    pub base: Option<String>,
-    /// Whether there are content packages for learning systems, and what they say of grades.
-    pub scorm: Option<ScormOptions>,
-}
-
-impl SiteOptions {
-    /// The title of the course.
-    pub(crate) fn title(&self) -> &str {
-        self.title.as_deref().unwrap_or(TITLE)
-    }
-}
-
-/// A file of a site.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum SiteFile {
-    /// A text.
-    Text(String),
-    /// A copy of a file.
-    Copy(PathBuf),
-    /// An archive.
-    Bytes(Vec<u8>),
 }
 
 /// The files of a site by their names, which are relative paths with `/`.
@@ -181,26 +150,6 @@ fn list_lessons<'l>(course: &Course<'l>, places: &mut Places) -> Vec<Listed<'l>>
     all
 }
 
-/// The main part of a lesson's page.
-pub(crate) fn lesson_attributes(page: &LessonPage) -> String {
-    let root = crate::names::root_from(&page.name);
-    let folder = page.model_folder.as_ref();
-    folder.map_or(String::new(), |folder| format!(" data-models=\"{}{}/\"", escape(&root), escape(folder)))
-}
-
-/// The models that a page contains.
-pub(crate) fn embedded_models(page: &LessonPage) -> String {
-    let one = |(name, text): (&String, &String)| {
-        format!("<script type=\"model/mjcf\" data-name=\"{}\">{}</script>\n", escape(name), text.trim())
-    };
-    page.embedded.iter().map(one).collect()
-}
-
-/// The title of a page, where its text has none.
-pub(crate) fn missing_heading(page: &LessonPage) -> String {
-    if page.has_heading { String::new() } else { format!("<h1>{}</h1>\n", escape(&page.title)) }
-}
-
 /// Writes a site.
 ///
 /// # Errors
@@ -261,13 +210,6 @@ pub fn build_site(
     Ok(site)
 }
 
-/// The main part of the page of a lesson.
-pub(crate) fn lesson_main(page: &LessonPage) -> String {
-    let blocks: String =
-        page.blocks.iter().map(|block| format!("{}\n{}\n", wrapped(block), block.after)).collect();
-    format!("{}{blocks}{}", missing_heading(page), embedded_models(page))
-}
-
 /// The page of a lesson, as far as it differs from those of others.
 fn lesson_frame<'p>(pages: &[LessonPage], at: usize, page: &'p LessonPage) -> Page<'p> {
     Page {
@@ -278,14 +220,6 @@ fn lesson_frame<'p>(pages: &[LessonPage], at: usize, page: &'p LessonPage) -> Pa
         main: lesson_main(page),
         neighbours: neighbours(pages, at),
         ..Page::default()
-    }
-}
-
-/// The content of a block in an element of its kind.
-fn wrapped(block: &crate::lesson::PageBlock) -> String {
-    match block.kind {
-        "text" => block.content.clone(),
-        kind => format!("<div class=\"fence {kind}\">{}</div>", block.content),
     }
 }
 

@@ -2,12 +2,12 @@
 //!
 //! The geometry itself is in [`crate::geometry`], which does not depend on models and data.
 
-mod distance;
+mod geom_distance;
 mod ray_hits;
 mod shape_of;
 mod within;
 
-pub use distance::geom_distance;
+pub use geom_distance::geom_distance;
 pub use ray_hits::{RayFilter, RayHit};
 pub use ray_hits::{counted_ray, ray};
 pub use within::inside_site;

@@ -2,8 +2,8 @@
 
 use super::backend::CourseCheck;
 use crate::lesson::{LessonPage, PageBlock};
+use crate::lesson_main::{embedded_models, lesson_attributes, missing_heading};
 use crate::marks::{class_of, verdict};
-use crate::site::{embedded_models, lesson_attributes, missing_heading};
 use crate::text::escape;
 use crate::verified::{hex_of, short_hash};
 use labspec::check::Checked;

@@ -7,7 +7,7 @@ use super::guard::{ACTIONS, ServerIdentity, headers};
 use super::http::{RequestHead, drain, read_body, read_head, write_answer};
 use super::snapshot::{Snapshot, SnapshotMaterial};
 use crate::assets::PageFiles;
-use crate::site::{SiteFile, SiteOptions};
+use crate::options::{SiteFile, SiteOptions};
 use labspec::check::CheckLevel;
 use labspec::threads;
 use percent_encoding::percent_decode_str;

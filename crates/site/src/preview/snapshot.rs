@@ -3,10 +3,11 @@
 use super::author::{AuthorView, text_hash};
 use super::backend::{Backend, CourseCheck, Proposals};
 use crate::assets::PageFiles;
+use crate::options::{SiteFile, SiteOptions};
 use crate::overview::{index_main, labs_main, neighbours};
 use crate::page::Page;
 use crate::search::search_index;
-use crate::site::{Course, CoursePages, SiteFile, SiteOptions, write_pages};
+use crate::site::{Course, CoursePages, write_pages};
 use crate::text::escape;
 use labspec::finding::Finding;
 use std::collections::{BTreeMap, BTreeSet};
