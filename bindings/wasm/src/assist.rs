@@ -10,7 +10,7 @@ use labspec::report::to_value;
 use labspec::source::{MAX_FILE, SourceFile, Sources};
 use labspec::spec::Lesson;
 use labspec_assist::{
-    Context, Document, FindingAnswer, LabText, EditorText, Utf16Offsets, completions, fixes, hover, lab_texts,
+    Context, Document, EditorText, FindingAnswer, LabText, Utf16Offsets, completions, fixes, hover, lab_texts,
 };
 use serde_json::{Value as Json, json};
 use std::path::PathBuf;

@@ -23,6 +23,7 @@ use js_sys::{Error, Float32Array, Float64Array, JSON};
 #[cfg(feature = "checker")]
 use labspec::Checker;
 use labspec::Player;
+use labspec::finding::Finding;
 use labspec::player::{ControlKind, DisplayedIn, Saved};
 #[cfg(feature = "checker")]
 use labspec_assist::EditorText;
@@ -450,6 +451,15 @@ pub(crate) fn named(texts: &JsValue) -> Result<BTreeMap<String, String>, JsValue
         Some((pair.get(0).as_string()?, pair.get(1).as_string()?))
     };
     Object::entries(object).iter().map(pair).collect::<Option<_>>().ok_or_else(wrong)
+}
+
+/// A finding of the player, whose module has no `labspec-assist`.
+pub(crate) fn finding(f: &Finding) -> Json {
+    json!({
+        "code": f.code, "severity": f.severity.as_str(), "file": &*f.path, "start": f.span.start, "end": f.span.end,
+        "line": f.position.map(|p| p.line), "column": f.position.map(|p| p.column),
+        "message": f.message, "why": f.why, "help": f.help,
+    })
 }
 
 pub(crate) fn value(v: &labspec::Value) -> Json {
