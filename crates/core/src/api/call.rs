@@ -438,9 +438,9 @@ const POSES: [FieldId; 8] = [
 ];
 
 /// Whether each step computes all that [`copy_poses`] copies and [`energy_of_poses`] needs, for the state from which the step
-/// starts. The last evaluation of a Runge–Kutta step is at another state; the inertia of tendons needs their Jacobian.
+/// starts. The last evaluation of an integrator of several stages is at another state; the inertia of tendons needs their Jacobian.
 pub fn steps_compute_poses<S: Scope>(m: &Model, d: &Data<S>) -> bool {
-    m.opt.integrator != integrator::RK4
+    !integrator::many_stages(m.opt.integrator)
         && m.tendon_armature.iter().all(|&a| a == 0.0)
         && d.has(&POSES).is_ok()
 }
