@@ -269,6 +269,14 @@ fn evaluate_pending<S: Scope>(w: &mut GrowthMonitor, m: &Model, d: &Data<S>, sta
     compare(w, m, energy, start, computed).is_some()
 }
 
+/// The growth that the last state of a run shows, if it was left to a step that was not made.
+pub fn evaluate_last(w: &GrowthMonitor, m: &Model) -> Option<Growth> {
+    let start = w.start.filter(|_| w.pending && w.found.is_none())?;
+    let mut last = w.clone();
+    let energy = mechanical_energy(m, &mut last.copied).ok().flatten()?;
+    compare(&mut last, m, energy, start, false)
+}
+
 /// Whether positions of mocap bodies or active equality constraints differ from those of the start.
 fn scene_changed<S: Scope>(w: &GrowthMonitor, d: &Data<S>) -> bool {
     let (copied, current) = (w.copied.fields(), d.fields());

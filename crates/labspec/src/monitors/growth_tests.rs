@@ -145,6 +145,7 @@ fn a_change_from_outside_is_a_new_start() {
     d.edit().qvel[0] = 1e5;
     // Each step computes the poses of the state from which it starts, so the energy of that state is known one step later.
     assert_eq!(observe(&mut w, &m, &d), None);
+    assert!(evaluate_last(&w, &m).is_some(), "a run that ends here has grown");
     step(&m, &mut d).unwrap();
     assert!(observe(&mut w, &m, &d).is_some());
     let mut w = watch(&m, &d);

@@ -116,3 +116,9 @@ fn constraints<S: Scope>(w: &mut Monitors, m: &Model, d: &Data<S>) {
 pub fn observations(w: &Monitors) -> &Observations {
     &w.noticed
 }
+
+/// The observations of a run that ends in this state.
+pub fn final_observations(w: &Monitors, m: &Model) -> Observations {
+    let last = || w.growth.as_ref().and_then(|growth| growth::evaluate_last(growth, m));
+    Observations { growth: w.noticed.growth.or_else(last), ..w.noticed }
+}

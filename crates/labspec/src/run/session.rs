@@ -296,7 +296,8 @@ impl<'p> Session<'p> {
 
     /// All silent faults, as far as the run is monitored.
     pub fn observations(&self) -> Observations {
-        self.watched.as_ref().map(|w| *watch::observations(&w.watch)).unwrap_or_default()
+        let watched = self.watched.as_ref();
+        watched.map(|w| watch::final_observations(&w.watch, &self.world.model)).unwrap_or_default()
     }
 
     /// Ends a run in which the engine refuses a call, because it has no valid state.
