@@ -153,6 +153,9 @@ pub(crate) fn bodies(d: &mut Fields, frames: &mut Frames) {
     let (mocap_pos, mocap_quat) = (rows::<3>(&d.mocap_pos), rows::<4>(&d.mocap_quat));
     let qpos = &d.qpos;
 
+    for joint in joints.iter_mut().filter(|joint| joint.kind == joint::HINGE) {
+        joint.half = libm::sincos(0.5 * (qpos[joint.coordinate] - joint.reference));
+    }
     for (i, f) in bodies.iter().enumerate().skip(1) {
         let mut here;
         if f.free {
@@ -173,7 +176,7 @@ pub(crate) fn bodies(d: &mut Fields, frames: &mut Frames) {
                 },
             };
             let out = xanchor[f.joints.clone()].iter_mut().zip(&mut xaxis[f.joints.clone()]);
-            for (joint, (xanchor, xaxis)) in joints[f.joints.clone()].iter_mut().zip(out) {
+            for (joint, (xanchor, xaxis)) in joints[f.joints.clone()].iter().zip(out) {
                 let axis = along(&here.axes, joint.axis);
                 let anchor = if joint.central { here.at } else { here.at + along(&here.axes, joint.anchor) };
                 (*xanchor, *xaxis) = (vec3(anchor), vec3(axis));
@@ -184,8 +187,7 @@ pub(crate) fn bodies(d: &mut Fields, frames: &mut Frames) {
                         continue;
                     }
                     joint::HINGE => {
-                        let (s, c) = libm::sincos(0.5 * displacement);
-                        joint.half = (s, c);
+                        let (s, c) = joint.half;
                         here.axes = turned(&here.axes, joint.axis, 2.0 * s * c, 1.0 - 2.0 * s * s);
                     }
                     _ => here.axes = product(&here.axes, &columns(quaternion(&qpos[joint.coordinate..]))),

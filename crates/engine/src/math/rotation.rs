@@ -5,14 +5,13 @@ use super::{EYE, IDENTITY, MINVAL, Mat3, Quat, Vec3, cross, dot, normalize, scal
 /// The unit quaternion in the direction of q. A zero quaternion becomes the identity. A quaternion whose norm differs
 /// from 1 only by rounding is returned unchanged, bit for bit.
 pub fn quat_normalize(q: Quat) -> Quat {
-    let n = dot(q, q).sqrt();
-    if n < MINVAL {
-        IDENTITY
-    } else if (n - 1.0).abs() > MINVAL {
-        scale(q, 1.0 / n)
-    } else {
-        q
+    let square = dot(q, q);
+    // The square of a norm differs from 1 by twice as much as the norm.
+    if (square - 1.0).abs() <= 2.0 * MINVAL {
+        return q;
     }
+    let n = square.sqrt();
+    if n < MINVAL { IDENTITY } else { scale(q, 1.0 / n) }
 }
 
 /// Hamilton product.

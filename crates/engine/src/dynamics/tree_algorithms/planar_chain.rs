@@ -100,12 +100,13 @@ fn load_hinges(hinges: &mut [FourHinges], links: &[PlanarLink]) {
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn fill(rows: &mut [f64], n: usize, hinges: &[FourHinges], get: impl Fn(&FourHinges) -> f64x4) {
     let groups = n.div_ceil(4).min(hinges.len());
-    for (to, hinges) in rows.chunks_mut(4).zip(&hinges[..groups]) {
-        let elements = get(hinges).to_array();
-        match to.first_chunk_mut() {
-            Some(four) => *four = elements,
-            None => to.iter_mut().zip(elements).for_each(|(to, element)| *to = element),
-        }
+    let (fours, end) = rows.as_chunks_mut::<4>();
+    for (to, hinges) in fours.iter_mut().zip(&hinges[..groups]) {
+        *to = get(hinges).to_array();
+    }
+    // The rows end within a group of four.
+    if let Some(hinges) = hinges[..groups].get(fours.len()) {
+        end.iter_mut().zip(get(hinges).to_array()).for_each(|(to, element)| *to = element);
     }
 }
 
@@ -251,16 +252,19 @@ fn rows_of_mass(
         moment += dot(q, add(scale(first, 2.0), scale(q, total)));
         first = add_scaled(first, q, total);
     }
-    let end = rows_of_m::rows_of(m, span.dofs.clone()).end;
-    for (k, link) in span.dofs.clone().zip(&*links) {
-        let row = rows_of_m::row(m, k);
+    // Row i of a chain has i + 1 elements.
+    let mut rows = &mut mass[rows_of_m::rows_of(m, span.dofs.clone())];
+    for (i, link) in links.iter().enumerate() {
         let anchor = link.anchor.map(f64x4::splat);
-        let (moment, first) = (f64x4::splat(link.beyond.0), link.beyond.1.map(f64x4::splat));
-        fill(&mut mass[row.start..end], row.len(), hinges, |before| {
+        let moment = f64x4::splat(link.sense * link.beyond.0);
+        let first = scale(link.beyond.1, link.sense).map(f64x4::splat);
+        fill(rows, i + 1, hinges, |before| {
             let [x, y] = sub(anchor, before.anchor);
-            before.sense * link.sense * (first[0] * -y + first[1] * x + moment)
+            before.sense * (first[1] * x - first[0] * y + moment)
         });
-        mass[row.end - 1] += link.armature;
+        let (row, below) = rows.split_at_mut(i + 1);
+        row[i] += link.armature;
+        rows = below;
     }
 }
 
@@ -383,16 +387,17 @@ fn rows_of_factor(m: &Model, d: &mut Fields, w: &mut DynamicsScratch) {
     for span in spans.iter() {
         let (links, joints) = (&links[span.links.clone()], &joints[span.links.clone()]);
         load_hinges(hinges, links);
-        let end = rows_of_m::rows_of(m, span.dofs.clone()).end;
-        for ((k, link), [PlanarJoint { u, inv, .. }, _]) in span.dofs.clone().zip(links).zip(joints) {
-            d.qLDiagInv[k] = *inv;
-            let row = rows_of_m::row(m, k);
-            let (anchor, u) = (link.anchor.map(f64x4::splat), u.map(f64x4::splat));
-            fill(&mut d.qLD[row.start..end], row.len(), hinges, |before| {
+        let mut rows = &mut d.qLD[rows_of_m::rows_of(m, span.dofs.clone())];
+        let inverses = &mut d.qLDiagInv[span.dofs.clone()];
+        for (i, ((link, [joint, _]), inverse)) in links.iter().zip(joints).zip(inverses).enumerate() {
+            let (anchor, u) = (link.anchor.map(f64x4::splat), scale(joint.u, joint.inv).map(f64x4::splat));
+            fill(rows, i + 1, hinges, |before| {
                 let [x, y] = sub(anchor, before.anchor);
-                before.sense * (u[0] - u[1] * y + u[2] * x) * *inv
+                before.sense * (u[2] * x - u[1] * y + u[0])
             });
-            d.qLD[row.end - 1] = 1.0 / inv;
+            let (row, below) = rows.split_at_mut(i + 1);
+            (row[i], *inverse) = (1.0 / joint.inv, joint.inv);
+            rows = below;
         }
     }
 }

@@ -37,9 +37,19 @@ pub(super) struct PlanarLink {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct PlanarJoint {
     pub(super) u: [f64; 3],
+    /// The torque of U about the previous anchor.
+    pub(super) torque: f64,
     pub(super) inv: f64,
     pub(super) diagonal: f64,
     pub(super) x: f64,
+}
+
+impl PlanarJoint {
+    /// U about the previous anchor.
+    #[cfg_attr(not(feature = "small"), inline(always))]
+    fn above(&self) -> [f64; 3] {
+        [self.torque, self.u[1], self.u[2]]
+    }
 }
 
 /// Articulated inertia about an anchor (J, h and M of `planar_chain`), and a force, with its torque about the anchor
@@ -58,16 +68,20 @@ pub(super) fn forward_kinematics(links: &mut [PlanarLink], qpos: &[f64]) {
     let (mut angle, mut cos, mut sin) = (0.0, 1.0, 0.0);
     let mut anchor = [0.0; 2];
     for link in links {
-        let [x, y] = link.at;
-        let at = [cos * x - sin * y, sin * x + cos * y];
+        let at = rotated(link.at, sin, cos);
         anchor = add(anchor, at);
         angle += link.sense * (qpos.get(link.coordinate).copied().unwrap_or(0.0) - link.reference);
         (sin, cos) = libm::sincos(angle);
-        let [x, y] = link.com;
-        link.arm = [cos * x - sin * y, sin * x + cos * y];
+        link.arm = rotated(link.com, sin, cos);
         link.quarter = [-at[1], at[0]];
         link.anchor = anchor;
     }
+}
+
+/// A vector rotated by an angle with this sine and cosine.
+#[cfg_attr(not(feature = "small"), inline(always))]
+fn rotated([x, y]: Vec2, sin: f64, cos: f64) -> Vec2 {
+    [cos * x - sin * y, sin * x + cos * y]
 }
 
 /// The inward pass, for the matrices `A..B` at the same time: computes U and D of every hinge. Returns the first one
@@ -87,6 +101,7 @@ pub(super) fn inward<const A: usize, const B: usize, const X: bool>(
             let h = add_scaled(body.first, [-link.arm[1], link.arm[0]], link.mass);
             let [xx, xy, yy] = body.mass;
             let (xx, yy) = (xx + link.mass, yy + link.mass);
+            let (across, moved) = (dot(q, h), [xx * q[0] + xy * q[1], xy * q[0] + yy * q[1]]);
             let d = moment + joint.diagonal;
             if d < MINVAL {
                 bad = Some(k);
@@ -94,13 +109,13 @@ pub(super) fn inward<const A: usize, const B: usize, const X: bool>(
             let inv = 1.0 / d.max(MINVAL);
             joint.inv = inv;
             joint.u = [link.sense * moment, link.sense * h[0], link.sense * h[1]];
-            // I - U Uᵀ / D: J and h are multiplied by the fraction of D that is the inertia of the joint.
-            let (part, ratio) = (scale(h, inv), joint.diagonal * inv);
-            let (xx, xy, yy) = (xx - h[0] * part[0], xy - h[0] * part[1], yy - h[1] * part[1]);
-            let (moment, h) = (moment * ratio, scale(h, ratio));
-            let moved = [h[0] + xx * q[0] + xy * q[1], h[1] + xy * q[0] + yy * q[1]];
-            body.moment = moment + dot(q, add(h, moved));
-            (body.first, body.mass) = (moved, [xx, xy, yy]);
+            joint.torque = link.sense * (moment + across);
+            // I - U Uᵀ / D: J and h are multiplied by the fraction of D that is the inertia of the joint. Products that
+            // do not need 1/D are computed while it is divided.
+            let (part, ratio, share) = (scale(h, inv), joint.diagonal * inv, across * inv);
+            body.mass = [xx - h[0] * part[0], xy - h[0] * part[1], yy - h[1] * part[1]];
+            body.first = add(scale(h, ratio), add_scaled(moved, h, -share));
+            body.moment = ratio * (moment + 2.0 * across) + (dot(q, moved) - across * share);
             if X {
                 pass_on(link, joint, &mut body.force);
             }
@@ -113,9 +128,10 @@ pub(super) fn inward<const A: usize, const B: usize, const X: bool>(
 /// anchor.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn pass_on(link: &PlanarLink, joint: &mut PlanarJoint, force: &mut [f64; 3]) {
-    joint.x = (joint.x - link.sense * force[0]) * joint.inv;
-    let [torque, x, y] = add_scaled(*force, joint.u, joint.x);
-    *force = [torque + link.quarter[0] * x + link.quarter[1] * y, x, y];
+    let [torque, x, y] = *force;
+    joint.x = joint.x * joint.inv - (link.sense * joint.inv) * torque;
+    let moved = torque + (link.quarter[0] * x + link.quarter[1] * y);
+    *force = add_scaled([moved, x, y], joint.above(), joint.x);
 }
 
 /// The outward pass, from the world to the end of the chain.
