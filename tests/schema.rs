@@ -42,7 +42,8 @@ fn objects(path: &Path) -> Vec<(Root, Value, bool)> {
     let mut all = Vec::new();
     for block in markdown::scan(&lesson.file).blocks {
         let root = match &block.kind {
-            BlockKind::Lab(widget) if widget == "simlab" => Root::Lab,
+            BlockKind::Lab(kind) if kind == "simlab" => Root::Lab,
+            BlockKind::Lab(kind) if kind == "integrators" => Root::Integrators,
             BlockKind::Quiz => Root::Quiz,
             _ => continue,
         };
