@@ -122,7 +122,11 @@ fn with_runs(verify: Verify, comparison: &Comparison) -> Verify {
     let at = &comparison.span;
     let integrator = |name: &str| (added(INTEGRATOR, at), Scalar::Text(added(name, at)));
     if verify.runs.is_empty() && verify.lab.is_none() && verify.uses.is_none() {
-        let run = |name: &&'static str| Run { set: vec![integrator(name)], ..Run::named(added(name, at)) };
+        let run = |name: &&'static str| Run {
+            name: added(name, at),
+            set: vec![integrator(name)],
+            ..Run::named(name)
+        };
         return Verify { runs: comparison.integrators.iter().map(run).collect(), ..verify };
     }
     let with_integrator = |mut run: Run| {

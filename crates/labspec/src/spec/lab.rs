@@ -243,27 +243,6 @@ impl Lab {
     }
 }
 
-impl Run {
-    /// A run of the lab as it is.
-    pub(super) fn named(name: Text) -> Run {
-        Run {
-            name,
-            lab: None,
-            model: Vec::new(),
-            key: None,
-            controller: None,
-            set: Vec::new(),
-            press: Vec::new(),
-            setup: None,
-            until: None,
-            steps: None,
-            stop: None,
-            sweep: None,
-            breaks: false,
-        }
-    }
-}
-
 /// The form of a code text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CodeForm {
