@@ -128,7 +128,8 @@ fn comparison(lab: &Lab, runs: &[ComparedRun]) -> String {
     }
     let _ = write!(out, "<table class=\"comparison\"><thead><tr><td></td>{heads}</tr></thead><tbody>");
     for (label, values) in rows {
-        let cells: String = values.iter().map(|value| format!("<td>{}</td>", escape(value))).collect();
+        let cells: String =
+            values.iter().map(|value| format!("<td>{}</td>", escape(&with_minus(value)))).collect();
         let _ = write!(out, "<tr><th scope=\"row\">{}</th>{cells}</tr>", escape(label));
     }
     out.push_str("</tbody></table>");
@@ -193,8 +194,7 @@ fn setting_line(lab: &Lab, table: &Table) -> String {
 /// The values of the controls at the start, in words.
 fn settings(lab: &Lab) -> String {
     // The table shows what is compared.
-    let compared = lab.comparison.as_ref().map_or(lab.controls.len(), |comparison| comparison.control);
-    let parts = lab.controls.iter().take(compared).filter_map(|control| {
+    let parts = lab.authored_controls().iter().filter_map(|control| {
         let label = control.label.as_str();
         match &control.kind {
             ControlKind::Slider { unit, value, .. } => {

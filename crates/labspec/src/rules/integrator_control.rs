@@ -22,9 +22,11 @@ pub const INTEGRATOR_CONTROL: &Rule = &Rule {
 
 /// Checks the controls of a lab that compares integrators.
 pub(crate) fn check_controls(lab: &Lab, programs: &Programs, findings: &mut Vec<Finding>) {
-    let Some(comparison) = &lab.comparison else { return };
+    if lab.comparison.is_none() {
+        return;
+    }
     let writes = |e: &Effects| e.writes.iter().any(|a| a.field.0 as usize == option::integrator.index());
-    for (control, (_, program)) in lab.controls.iter().zip(&programs.controls).take(comparison.control) {
+    for (control, (_, program)) in lab.authored_controls().iter().zip(&programs.controls) {
         let run = match program {
             ControlProgram::Change(_, action) => &action.run,
             ControlProgram::Press(run) => run,

@@ -12,7 +12,7 @@ pub const INTEGRATORS_LIST: &Rule = &Rule {
     summary: "`integrators` is empty, names an unknown integrator, or names one twice",
     why: "the page has no curve for this integrator",
     bad: Example::Lesson(
-        "```lab integrators\n{\"model\": \"ball\", \"integrators\": [\"Euler\", ⟦\"rk4\"⟧]}\n```\n",
+        "```lab integrators\n{\"model\": \"ball\", \"integrators\": [\"Euler\", \"⟦rk4⟧\"]}\n```\n",
     ),
     good: Example::Lesson(
         "```lab integrators\n{\"model\": \"ball\", \"integrators\": [\"Euler\", \"RK4\"]}\n```\n",

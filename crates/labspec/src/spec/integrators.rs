@@ -8,7 +8,7 @@ use super::format::{INTEGRATOR_NAMES, texts};
 use super::lab::{Comparison, Lab, Run, Verify};
 use super::plot::{Plot, Trace};
 use super::read;
-use crate::json::{Number, Scalar};
+use crate::json::{Json, Number, Scalar};
 use crate::source::{SourceMap, Text};
 use std::fmt::Write;
 use std::ops::Range;
@@ -29,9 +29,13 @@ const BASELINE: &str = "mj.mj_forward(model, data); ctx.energyStart = lib.energy
 pub(super) fn read_comparison(f: &mut Fields<'_, '_>) -> Comparison {
     let brace = f.span().start..f.span().end.min(f.span().start + 1);
     let span = f.node("integrators").map_or(brace, |node| node.span.clone());
-    let listed: Option<Vec<Text>> = f
-        .items("integrators")
-        .map(|nodes| nodes.iter().filter_map(|n| read::text(n, "an integrator", f.problems)).collect());
+    let is_list = f.node("integrators").is_some_and(|node| matches!(node.json, Json::Array(_)));
+    let nodes = f.items("integrators").unwrap_or_default();
+    let texts_of_list: Vec<Text> =
+        nodes.iter().filter_map(|n| read::text(n, "an integrator", f.problems)).collect();
+    // A value that is not a list, and a list without any text, have their own findings.
+    let has_names = nodes.is_empty() || !texts_of_list.is_empty();
+    let listed = (is_list && has_names).then_some(texts_of_list);
     let is_listed = |name: &&str| listed.iter().flatten().any(|text| text.value == *name);
     let order = |name: &&str| listed.iter().flatten().position(|text| text.value == *name);
     let mut integrators: Vec<&'static str> = texts(&INTEGRATOR_NAMES).filter(is_listed).collect();
@@ -117,23 +121,27 @@ fn energy_plot(at: &Range<usize>, window: Option<Number>) -> Plot {
     }
 }
 
-/// Without runs, the claims have a run for each integrator. A run that is named after an integrator uses it.
+/// Without runs, the claims have a run for each integrator. A run that is named after an integrator uses it, or cannot be
+/// made if it is not compared. Claims about another lab are unchanged.
 fn with_runs(verify: Verify, comparison: &Comparison) -> Verify {
-    let at = &comparison.span;
-    let integrator = |name: &str| (added(INTEGRATOR, at), Scalar::Text(added(name, at)));
-    if verify.runs.is_empty() && verify.lab.is_none() && verify.uses.is_none() {
+    if verify.lab.is_some() {
+        return verify;
+    }
+    let setting = |name: &str, at: &Range<usize>| (added(INTEGRATOR, at), Scalar::Text(added(name, at)));
+    if verify.runs.is_empty() && verify.uses.is_none() {
+        let at = &comparison.span;
         let run = |name: &&'static str| Run {
             name: added(name, at),
-            set: vec![integrator(name)],
+            set: vec![setting(name, at)],
             ..Run::named(name)
         };
         return Verify { runs: comparison.integrators.iter().map(run).collect(), ..verify };
     }
     let with_integrator = |mut run: Run| {
-        let name = run.name.value.clone();
+        let is_integrator = texts(&INTEGRATOR_NAMES).any(|name| name == run.name.value);
         let sets = run.set.iter().any(|(label, _)| label.value == INTEGRATOR);
-        if comparison.integrators.contains(&name.as_str()) && !sets && run.lab.is_none() {
-            run.set.push(integrator(&name));
+        if is_integrator && !sets && run.lab.is_none() {
+            run.set.push(setting(&run.name.value, &run.name.span()));
         }
         run
     };
@@ -220,6 +228,9 @@ mod tests {
             assert_eq!(lab.controls.len(), 1);
             assert!(!lab.comparison.unwrap().integrators.is_empty());
         }
+        for keys in [r#""integrators": "RK4""#, r#""integrators": [0, 1]"#] {
+            assert!(!codes(&with(keys)).contains(&"integrators-list"), "{keys}");
+        }
         let unknown = read(&with(r#""quantity": "energy""#)).findings.remove(0);
         let help = unknown.help.unwrap();
         assert!(help.contains("integrators") && help.contains("timestep"), "{help}");
@@ -262,13 +273,14 @@ mod tests {
         assert_eq!(runs(r#"{"says": []}"#), each);
         assert_eq!(
             runs(r#"{"runs": {"Euler": {"until": 1}, "implicit": {}, "long": {"until": 2}}}"#),
-            [one("Euler", Some("Euler")), one("implicit", None), one("long", None)]
+            [one("Euler", Some("Euler")), one("implicit", Some("implicit")), one("long", None)]
         );
         assert_eq!(
             runs(r#"{"runs": {"Euler": {"set": {"integrator": "RK4"}}}}"#),
             [one("Euler", Some("RK4"))]
         );
         assert_eq!(runs(r##"{"lab": "#1", "says": []}"##), []);
+        assert_eq!(runs(r##"{"lab": "#1", "runs": {"Euler": {}}}"##), [one("Euler", None)]);
     }
 
     #[test]

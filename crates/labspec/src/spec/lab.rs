@@ -222,13 +222,17 @@ impl Lab {
         self.plots.iter().flat_map(|p| &p.traces)
     }
 
+    /// The controls that the author wrote: without the one that a comparison adds.
+    pub fn authored_controls(&self) -> &[Control] {
+        let count = self.comparison.as_ref().map_or(self.controls.len(), |comparison| comparison.control);
+        self.controls.get(..count).unwrap_or(&self.controls)
+    }
+
     /// All texts that the author wrote as code, each with its form, in the order of the lab format.
     pub fn code(&self) -> Vec<(CodeForm, &Text)> {
         let statements = [&self.setup, &self.controller].into_iter().flatten();
         let mut all: Vec<(CodeForm, &Text)> = statements.map(|t| (CodeForm::Statements, t)).collect();
-        // A comparison adds the last control and the first plot.
-        let added = usize::from(self.comparison.is_some());
-        for control in self.controls.iter().take(self.controls.len() - added.min(self.controls.len())) {
+        for control in self.authored_controls() {
             if let super::ControlKind::Button { run } = &control.kind {
                 all.push((CodeForm::Statements, run));
             }
@@ -237,6 +241,8 @@ impl Lab {
                 all.extend(action.apply.iter().map(|t| (CodeForm::Statements, t)));
             }
         }
+        // A comparison adds the first plot.
+        let added = usize::from(self.comparison.is_some());
         let exprs = self.traces().skip(added).map(|t| &t.expr).chain(self.readouts.iter().map(|r| &r.expr));
         all.extend(exprs.map(|t| (CodeForm::Expression, t)));
         all
