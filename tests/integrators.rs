@@ -112,6 +112,51 @@ fn a_break_is_reported_once_with_the_integrators_that_have_it() {
 }
 
 #[test]
+fn a_run_named_after_an_integrator_that_is_not_compared_cannot_be_made() {
+    let folder = folder(r#" "integrators": ["RK4", "Euler"],"#);
+    let text = std::fs::read_to_string(folder.path().join("a.md")).unwrap();
+    let runs = r#""verify": {"runs": {"RK4": {}, "Euler": {}, "implicit": {}},"#;
+    std::fs::write(folder.path().join("a.md"), text.replace(r#""verify": {"#, runs)).unwrap();
+    let done = check(folder.path(), &[]);
+    assert_eq!(done.code, 1, "{}", done.stdout);
+    let message =
+        "the run `implicit` cannot be made: the text \"implicit\" is not an option of \"integrator\"";
+    assert!(done.stdout.contains(message), "{}", done.stdout);
+}
+
+#[test]
+fn wrong_and_hostile_labs_have_findings() {
+    let folder = folder("");
+    for (lab, code, help) in [
+        (r#"{"model": "spring", "integrators": ["rk4"]}"#, "integrators-list", "did you mean `RK4`?"),
+        (r#"{"model": "spring", "integrators": ["leapfrog"]}"#, "integrators-list", "use one of: Euler, RK4"),
+        (r#"{"model": "spring", "integrators": []}"#, "integrators-list", "delete the key"),
+        (r#"{"model": "spring", "integrators": {"a": 1}}"#, "wrong-type", "write a list"),
+        (r#"{"model": "spring", "timestep": "1"}"#, "wrong-type", "write a number"),
+        (r#"{"integrators": ["RK4"]}"#, "one-model", "add \"model\""),
+        (r#"{"model": "sprng"}"#, "unknown-model", "did you mean `spring`?"),
+        (r#"{"model": "spring", "integrators": ["RK4""#, "json-syntax", "write `]` where it ends"),
+        ("[1, 2]", "wrong-type", "write an object"),
+        ("\"RK4\"", "wrong-type", "write an object"),
+        ("", "json-syntax", "write one JSON object"),
+        (r#"{"model": "spring", "timestep": 1e999}"#, "json-syntax", "use a number below"),
+        (
+            &format!("{{\"model\": \"spring\", \"integrators\": {}1", "[".repeat(2000)),
+            "json-limit",
+            "look for a bracket",
+        ),
+    ] {
+        std::fs::write(folder.path().join("a.md"), format!("# A\n\n```lab integrators\n{lab}\n```\n"))
+            .unwrap();
+        let done = check(folder.path(), &[]);
+        assert_eq!(done.code, 1, "{lab}: {}{}", done.stdout, done.stderr);
+        let text = &done.stdout;
+        assert!(text.contains(&format!("error[{code}]")) && text.contains(help), "{lab}: {text}");
+        assert!(text.contains(" --> a.md:"), "{lab}: {text}");
+    }
+}
+
+#[test]
 fn a_control_of_the_integrator_is_a_finding() {
     for control in [
         r#"{"type": "select", "label": "method", "set": "model.opt.integrator", "options": [["Euler", 0], ["RK4", 1]], "value": 0, "reset": true}"#,
@@ -121,6 +166,7 @@ fn a_control_of_the_integrator_is_a_finding() {
         let folder = folder(&format!(r#" "controls": [{control}],"#));
         let done = check(folder.path(), &["--no-run"]);
         assert!(done.stdout.contains("integrator-control"), "{}", done.stdout);
+        assert!(!done.stdout.contains("duplicate-control"), "{}", done.stdout);
     }
 }
 

@@ -104,7 +104,13 @@ fn every_smallest_object_and_every_example_passes() {
 }
 
 /// Labs and quizzes with one error each, and the same without it.
-const WRONG: [(&str, &str); 26] = [
+const WRONG: [(&str, &str); 29] = [
+    (r#"{"model": "fall", "integrators": ["rk4"]}"#, r#"{"model": "fall", "integrators": ["RK4"]}"#),
+    (r#"{"model": "fall", "integrators": "RK4"}"#, r#"{"model": "fall", "integrators": ["RK4", "Euler"]}"#),
+    (
+        r#"{"model": "fall", "integrators": ["RK4"], "timestep": 0}"#,
+        r#"{"model": "fall", "integrators": ["RK4"], "timestep": 0.1}"#,
+    ),
     (r#"{"modle": "fall"}"#, r#"{"model": "fall"}"#),
     (r#"{"title": "A fall"}"#, r#"{"title": "A fall", "model": "fall"}"#),
     (r#"{"model": "fall", "xml": "<mujoco/>"}"#, r#"{"xml": "<mujoco/>"}"#),
@@ -234,8 +240,14 @@ fn mistakes_of_the_format_are_refused() {
     if needs("../shared/corpus") {
         folders.extend(["labs", "quizzes"].map(|f| here.join("../shared/corpus").join(f)));
     }
-    let schemas: BTreeMap<String, Value> =
-        [Root::Lab, Root::Quiz, Root::Lesson].map(|root| (format!("{root:?}"), schema(root))).into();
+    let schemas: BTreeMap<String, Value> = [Root::Lab, Root::Integrators, Root::Quiz, Root::Lesson]
+        .map(|root| (format!("{root:?}"), schema(root)))
+        .into();
+    // Without its list, a comparison in a file of JSON is an ordinary lab.
+    let file = |root: Root, mutant: &Value| match root {
+        Root::Integrators => SourceFile::new("a.md", format!("```lab integrators\n{mutant}\n```\n")),
+        _ => SourceFile::new("a.json", mutant.to_string()),
+    };
     let (mut turn, mut refused, mut accepted_count) = (0, 0, 0);
     let mut wrong = Vec::new();
     let valid = folders.iter().flat_map(|f| files(f)).flat_map(|path| objects(&path));
@@ -249,8 +261,7 @@ fn mistakes_of_the_format_are_refused() {
                 if turn % 7 != 0 || mutant == value {
                     continue;
                 }
-                let read =
-                    load_lesson(SourceFile::new("a.json", mutant.to_string()), &ModelFolder::unknown());
+                let read = load_lesson(file(root, &mutant), &ModelFolder::unknown());
                 let errors = || read.findings.iter().filter(|f| f.is_error());
                 let accepted = problems(&schemas, &format!("{root:?}"), &mutant).is_empty();
                 if errors().any(|f| OF_FORMAT.contains(&f.code)) {
