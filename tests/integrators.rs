@@ -132,7 +132,7 @@ fn wrong_and_hostile_labs_have_findings() {
         (r#"{"model": "spring", "integrators": ["leapfrog"]}"#, "integrators-list", "use one of: Euler, RK4"),
         (r#"{"model": "spring", "integrators": []}"#, "integrators-list", "delete the key"),
         (r#"{"model": "spring", "integrators": {"a": 1}}"#, "wrong-type", "write a list"),
-        (r#"{"model": "spring", "timestep": "1"}"#, "wrong-type", "write a number"),
+        (r#"{"model": "spring", "timestep": "1"}"#, "wrong-type", "write 1 without the quotes"),
         (r#"{"integrators": ["RK4"]}"#, "one-model", "add \"model\""),
         (r#"{"model": "sprng"}"#, "unknown-model", "did you mean `spring`?"),
         (r#"{"model": "spring", "integrators": ["RK4""#, "json-syntax", "write `]` where it ends"),

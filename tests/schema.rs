@@ -181,7 +181,11 @@ const WRONG: [(&str, &str); 29] = [
 #[test]
 fn wrong_ones_fail_and_right_ones_do_not() {
     for (bad, good) in WRONG {
-        let root = if bad.contains("questions") { Root::Quiz } else { Root::Lab };
+        let root = match bad {
+            _ if bad.contains("questions") => Root::Quiz,
+            _ if bad.contains("integrators") => Root::Integrators,
+            _ => Root::Lab,
+        };
         for (text, right) in [(bad, false), (good, true)] {
             assert_eq!(accepts(root, &parse(text)), right, "{text}");
             assert_eq!(accepts(Root::Lesson, &parse(text)), right, "{text}");
