@@ -83,7 +83,7 @@ fn the_documentation_of_the_repository_is_a_site_without_dead_links() {
     assert!(pages.len() > 40 && pages.contains_key("docs/measured/web.html"), "{}", pages.len());
     assert_eq!(dead_links(&pages, &files), [""; 0]);
     let labs = pages.values().map(|html| html.matches("<sim-lab").count()).sum::<usize>();
-    assert_eq!(labs, 18, "the labs of the course, and none of the documentation");
+    assert_eq!(labs, 19, "the labs of the course, and none of the documentation");
     let search = page(folder.path(), "search.json");
     for url in
         ["docs/tutorial.html#the-model", "specs/lessons/02-bounce-and-swing.html", "web/elements/README.html"]

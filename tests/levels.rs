@@ -241,32 +241,32 @@ fn files_ignored_by_git_are_not_lessons() {
 fn an_unknown_widget_is_listed_as_not_checked() {
     let folder = crate::program::folder();
     let lesson = format!(
-        "{}\n```lab integrators\n{{\"model\": \"ball_drop\"}}\n```\n\n```lab playground\n{{}}\n```\n",
+        "{}\n```lab gearbox\n{{\"model\": \"ball_drop\"}}\n```\n\n```lab playground\n{{}}\n```\n",
         crate::program::CLEAN
     );
     std::fs::write(folder.path().join("clean.md"), lesson).unwrap();
     let check = |arguments: &[&str]| check(&folder, &[&["clean.md"], arguments].concat());
     let done = check(&[]);
     assert_eq!(done.code, 3, "{}", done.stdout);
-    assert!(done.stdout.contains("unknown    widget integrators: not checked; "), "{}", done.stdout);
+    assert!(done.stdout.contains("unknown    widget gearbox: not checked; "), "{}", done.stdout);
     assert!(done.stdout.contains("2 other widgets not checked"), "{}", done.stdout);
     let report: Value = parsed(&check(&["--format", "json"]));
     let entries = report["ledger"].as_array().unwrap().iter();
     let widgets: Vec<_> = entries.filter(|e| e["subject"] == "otherWidget").map(|e| &e["owner"]).collect();
-    assert_eq!(widgets, ["widget integrators", "widget playground"]);
+    assert_eq!(widgets, ["widget gearbox", "widget playground"]);
     assert_eq!(report["summary"]["claims"]["otherWidget"]["leftOut"], 2);
     assert_eq!(report["summary"]["outcome"], "partial");
     // If only claims are verified, widgets are not mentioned.
     assert_eq!(run_in(folder.path(), &["verify", "clean.md"]).code, 0);
     let settings = folder.path().join("labspec.toml");
-    std::fs::write(&settings, "widgets = [\"integrators\"]\n").unwrap();
+    std::fs::write(&settings, "widgets = [\"gearbox\"]\n").unwrap();
     let done = check(&[]);
     assert_eq!(done.code, 3);
     assert!(done.stdout.contains("1 other widget not run, 1 other widget not checked"), "{}", done.stdout);
-    std::fs::write(&settings, "widgets = [\"integrators\", \"playground\"]\n").unwrap();
+    std::fs::write(&settings, "widgets = [\"gearbox\", \"playground\"]\n").unwrap();
     assert_eq!(check(&[]).code, 0);
     // A misspelt name denotes another widget.
-    std::fs::write(&settings, "widgets = [\"integrator\", \"playground\"]\n").unwrap();
+    std::fs::write(&settings, "widgets = [\"gear\", \"playground\"]\n").unwrap();
     assert_eq!(check(&[]).code, 3);
 }
 

@@ -336,6 +336,41 @@ fn completions_know_the_language_the_model_and_the_format() {
 }
 
 #[test]
+fn a_lab_that_compares_integrators_is_known_to_the_editor() {
+    let folder = folder();
+    let mut editor = Editor::open(folder.path());
+    let fence = |inside: &str| format!("# Ein Würfel 𝄞\n\n```lab integrators\n{{{inside}}}\n```\n");
+    let claim =
+        "\"model\": \"ball_drop\", \"verify\": {\"measure\": {\"top\": \"1\"}, \"says\": [[\"1\", \"|\"]]}";
+    for (inside, expected, not) in [
+        ("\"model\": \"ball_drop\", \"|\"", "integrators", "model"),
+        ("\"model\": \"ball_drop\", \"time|\"", "timestep", "model"),
+        ("\"model\": \"ball_drop\", \"integrators\": [\"|\"]", "implicitfast", "timestep"),
+        ("\"model\": \"ball_drop\", \"setup\": \"data.|\"", "qpos", "geom_size"),
+        (claim, "RK4", "qpos"),
+    ] {
+        let (text, byte) = marked(&fence(inside));
+        editor.did_open("i.md", &text);
+        let all = editor.at("completion", "i.md", &text, byte);
+        let labels: Vec<&str> =
+            all.as_array().unwrap().iter().map(|i| i["label"].as_str().unwrap()).collect();
+        assert!(labels.contains(&expected) && !labels.contains(&not), "{inside}: {labels:?}");
+    }
+    let hovered = |editor: &mut Editor, inside: &str| {
+        let (text, byte) = marked(&fence(inside));
+        editor.did_open("i.md", &text);
+        editor.at("hover", "i.md", &text, byte)["contents"]["value"].as_str().unwrap_or("").to_string()
+    };
+    let key = hovered(&mut editor, "\"model\": \"ball_drop\", \"integ|rators\": [\"RK4\"]");
+    assert!(key.starts_with("**integrators**: list of words"), "{key}");
+    let name = hovered(&mut editor, "\"model\": \"ball_drop\", \"integrators\": [\"R|K4\"]");
+    assert!(name.starts_with("**RK4**") && name.contains("Runge-Kutta"), "{name}");
+    let found = editor.did_open("i.md", &fence("\"model\": \"ball_drop\", \"integrators\": [\"rk4\"]"));
+    assert!(codes(&found).contains(&"integrators-list"), "{found}");
+    assert_eq!(editor.end(), 0);
+}
+
+#[test]
 fn a_hover_states_the_initial_value() {
     let folder = folder();
     let mut editor = Editor::open(folder.path());

@@ -27,6 +27,7 @@ mod fresh;
 mod fuzz;
 mod html;
 mod init;
+mod integrators;
 mod javascript;
 mod judge;
 mod labs;

@@ -42,7 +42,8 @@ fn objects(path: &Path) -> Vec<(Root, Value, bool)> {
     let mut all = Vec::new();
     for block in markdown::scan(&lesson.file).blocks {
         let root = match &block.kind {
-            BlockKind::Lab(widget) if widget == "simlab" => Root::Lab,
+            BlockKind::Lab(kind) if kind == "simlab" => Root::Lab,
+            BlockKind::Lab(kind) if kind == "integrators" => Root::Integrators,
             BlockKind::Quiz => Root::Quiz,
             _ => continue,
         };
@@ -103,7 +104,13 @@ fn every_smallest_object_and_every_example_passes() {
 }
 
 /// Labs and quizzes with one error each, and the same without it.
-const WRONG: [(&str, &str); 26] = [
+const WRONG: [(&str, &str); 29] = [
+    (r#"{"model": "fall", "integrators": ["rk4"]}"#, r#"{"model": "fall", "integrators": ["RK4"]}"#),
+    (r#"{"model": "fall", "integrators": "RK4"}"#, r#"{"model": "fall", "integrators": ["RK4", "Euler"]}"#),
+    (
+        r#"{"model": "fall", "integrators": ["RK4"], "timestep": 0}"#,
+        r#"{"model": "fall", "integrators": ["RK4"], "timestep": 0.1}"#,
+    ),
     (r#"{"modle": "fall"}"#, r#"{"model": "fall"}"#),
     (r#"{"title": "A fall"}"#, r#"{"title": "A fall", "model": "fall"}"#),
     (r#"{"model": "fall", "xml": "<mujoco/>"}"#, r#"{"xml": "<mujoco/>"}"#),
@@ -174,7 +181,11 @@ const WRONG: [(&str, &str); 26] = [
 #[test]
 fn wrong_ones_fail_and_right_ones_do_not() {
     for (bad, good) in WRONG {
-        let root = if bad.contains("questions") { Root::Quiz } else { Root::Lab };
+        let root = match bad {
+            _ if bad.contains("questions") => Root::Quiz,
+            _ if bad.contains("integrators") => Root::Integrators,
+            _ => Root::Lab,
+        };
         for (text, right) in [(bad, false), (good, true)] {
             assert_eq!(accepts(root, &parse(text)), right, "{text}");
             assert_eq!(accepts(Root::Lesson, &parse(text)), right, "{text}");
@@ -233,8 +244,14 @@ fn mistakes_of_the_format_are_refused() {
     if needs("../shared/corpus") {
         folders.extend(["labs", "quizzes"].map(|f| here.join("../shared/corpus").join(f)));
     }
-    let schemas: BTreeMap<String, Value> =
-        [Root::Lab, Root::Quiz, Root::Lesson].map(|root| (format!("{root:?}"), schema(root))).into();
+    let schemas: BTreeMap<String, Value> = [Root::Lab, Root::Integrators, Root::Quiz, Root::Lesson]
+        .map(|root| (format!("{root:?}"), schema(root)))
+        .into();
+    // Without its list, a comparison in a file of JSON is an ordinary lab.
+    let file = |root: Root, mutant: &Value| match root {
+        Root::Integrators => SourceFile::new("a.md", format!("```lab integrators\n{mutant}\n```\n")),
+        _ => SourceFile::new("a.json", mutant.to_string()),
+    };
     let (mut turn, mut refused, mut accepted_count) = (0, 0, 0);
     let mut wrong = Vec::new();
     let valid = folders.iter().flat_map(|f| files(f)).flat_map(|path| objects(&path));
@@ -248,8 +265,7 @@ fn mistakes_of_the_format_are_refused() {
                 if turn % 7 != 0 || mutant == value {
                     continue;
                 }
-                let read =
-                    load_lesson(SourceFile::new("a.json", mutant.to_string()), &ModelFolder::unknown());
+                let read = load_lesson(file(root, &mutant), &ModelFolder::unknown());
                 let errors = || read.findings.iter().filter(|f| f.is_error());
                 let accepted = problems(&schemas, &format!("{root:?}"), &mutant).is_empty();
                 if errors().any(|f| OF_FORMAT.contains(&f.code)) {

@@ -205,6 +205,43 @@ fn a_lab_has_its_results_without_scripts() {
 }
 
 #[test]
+fn a_comparison_of_integrators_has_a_table_without_scripts() {
+    let lab = r#"{"title": "Fall", "model": "ball", "stopAt": 0.3, "readouts": [{"label": "height (m)", "expr": "data.qpos[2]"}],
+ "verify": {"measure": {"height": "final(data.qpos[2])"}, "says": [["0.56 m", "RK4.height"]]}KEYS}"#;
+    let lesson = |keys: &str| {
+        format!("# A fall\n\nIt ends at 0.56 m.\n\n```lab integrators\n{}\n```\n", lab.replace("KEYS", keys))
+    };
+    let folder = course(&[
+        ("models/ball.xml", BALL),
+        ("all.md", &lesson("")),
+        ("two.md", &lesson(r#", "integrators": ["RK4", "Euler"]"#)),
+        ("wrong.md", &lesson(r#", "integrators": ["</script>", 1]"#)),
+    ]);
+    build(folder.path(), &[]);
+    let html = page(folder.path(), "two.html");
+    assert!(
+        html.contains("<sim-lab id=\"lab-1\"") && html.contains(r#""integrators":["RK4","Euler"]"#),
+        "{html}"
+    );
+    assert!(!html.contains("\"verify\""), "{html}");
+    let twin = html.split_once("<div class=\"twin\">").unwrap().1;
+    let heads = "<th scope=\"col\">RK4</th><th scope=\"col\">Euler</th>";
+    assert!(twin.contains("after 0.300 s") && twin.contains(heads), "{twin}");
+    assert!(twin.contains("<tr><th scope=\"row\">height (m)</th><td>0.5"), "{twin}");
+    let drift = twin.split_once("<tr><th scope=\"row\">largest energy drift</th>").unwrap().1;
+    assert!(drift.split_once("</tr>").unwrap().0.ends_with("<td>0.0029</td>"), "{twin}");
+    assert!(twin.contains("<svg"), "{twin}");
+    // An element recognizes a comparison by its list.
+    for name in ["all.html", "wrong.html"] {
+        let html = page(folder.path(), name);
+        assert!(
+            html.contains(r#""integrators":["Euler","RK4","implicit","implicitfast"]"#),
+            "{name}: {html}"
+        );
+    }
+}
+
+#[test]
 fn a_model_with_files_is_copied_with_them() {
     let model = |file: &str| {
         format!(

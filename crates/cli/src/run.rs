@@ -7,11 +7,12 @@ use super::output::{PlannedOutput, requested_outputs, write_png, write_with};
 use super::output_kind::OutputKind;
 use super::stdio::print;
 use super::stdio::stream;
+use super::target::LabTarget;
 use clap::ValueEnum;
 use labspec::report::{printable, printable_path};
 use labspec::run::{Cell, RunOptions, Table, rounded};
 use labspec::spec::Lab;
-use labspec::stress;
+use labspec::stress::{self, ComparedRun};
 use labspec_plot::line_chart;
 use labspec_site::chart;
 use std::fmt::Write;
@@ -82,16 +83,21 @@ pub(super) fn run(a: &RunArguments) -> Result<CommandOutcome, Failure> {
     files.extend(drawn.iter().map(|path| PlannedOutput { kind: OutputKind::Plot, path: path.clone() }));
     files.extend(painted.iter().map(|path| PlannedOutput { kind: OutputKind::Picture, path: path.clone() }));
     a.handled.check_outputs_writable(&target, &files)?;
-    let table =
-        stress::watched_run(&target.lab, &target.model, &target.programs, &options).map_err(|e| e.0)?;
+    let LabTarget { lab, model, programs } = &target;
+    let compared = stress::compared_runs(lab, model, programs, &options).map_err(|e| e.0)?;
+    // What is written has a column for each integrator; what is printed is a table of them.
+    let (lab, table) = match &compared {
+        Some(runs) => stress::join_runs(lab, runs),
+        None => (lab.clone(), stress::watched_run(lab, model, programs, &options).map_err(|e| e.0)?),
+    };
     if let Some(file) = &a.csv {
         write_with(file, OutputKind::Table, |out| table.write_csv(out))?;
     }
     if let Some(file) = &a.json {
         write_with(file, OutputKind::Run, |out| table.write_json(out).and_then(|()| out.write_all(b"\n")))?;
     }
-    let picture = |(i, plot)| line_chart(&chart(&target.lab, plot, i, &table));
-    let pictures = || target.lab.plots.iter().enumerate().map(picture);
+    let picture = |(i, plot)| line_chart(&chart(&lab, plot, i, &table));
+    let pictures = || lab.plots.iter().enumerate().map(picture);
     for (svg, file) in pictures().zip(&drawn) {
         write_file(file, OutputKind::Plot, &svg)?;
     }
@@ -99,7 +105,7 @@ pub(super) fn run(a: &RunArguments) -> Result<CommandOutcome, Failure> {
         write_png(file, &svg)?;
     }
     match a.format {
-        RunFormat::Human => print(&readouts(&target.lab, &table))?,
+        RunFormat::Human => print(&describe_run(&target.lab, compared.as_deref(), &table))?,
         RunFormat::Json => stream(|out| table.write_json(out).and_then(|()| out.write_all(b"\n")))?,
         RunFormat::Csv => stream(|out| table.write_csv(out))?,
     }
@@ -107,8 +113,9 @@ pub(super) fn run(a: &RunArguments) -> Result<CommandOutcome, Failure> {
     Ok(if clean { CommandOutcome::Clean } else { CommandOutcome::Findings })
 }
 
-/// The output at the end of the run: readouts, traces of labs without readouts, warnings.
-fn readouts(lab: &Lab, table: &Table) -> String {
+/// The output at the end of the run: readouts, traces of labs without readouts, warnings; for a comparison, a table with a
+/// column for each integrator.
+fn describe_run(lab: &Lab, compared: Option<&[ComparedRun]>, table: &Table) -> String {
     let mut text = String::new();
     let Some(last) = table.rows.last() else { return text };
     let time = last.first().map_or(f64::NAN, Cell::number);
@@ -118,23 +125,9 @@ fn readouts(lab: &Lab, table: &Table) -> String {
         n => format!("{n} samples"),
     };
     let _ = writeln!(text, "{}, after {} s ({samples})", printable(title), rounded(time, 3));
-    let digits = |name: &str| {
-        let label = name.strip_prefix("readout/")?;
-        lab.readouts.iter().find(|r| r.label.value == label).map(|r| r.digits())
-    };
-    let rows: Vec<(String, String)> = table
-        .columns
-        .iter()
-        .zip(last)
-        .skip(1)
-        .map(|(name, cell)| {
-            let label = name.strip_prefix("readout/").or_else(|| name.splitn(3, '/').nth(2)).unwrap_or(name);
-            (printable(label).into_owned(), printable(&cell.rounded(digits(name).unwrap_or(4))).into_owned())
-        })
-        .collect();
-    let width = rows.iter().map(|(label, _)| label.chars().count()).max().unwrap_or(0);
-    for (label, value) in rows {
-        let _ = writeln!(text, "  {label}{}  {value}", " ".repeat(width - label.chars().count()));
+    match compared {
+        Some(runs) => text.push_str(&comparison_table(lab, runs)),
+        None => text.push_str(&final_values(lab, table)),
     }
     for (name, n) in &table.warnings {
         let often = if *n == 1 { "once".to_string() } else { format!("{n} times") };
@@ -145,6 +138,67 @@ fn readouts(lab: &Lab, table: &Table) -> String {
     }
     for error in &table.errors {
         let _ = writeln!(text, "error: {}", printable(error));
+    }
+    text
+}
+
+/// The traces and the readouts at the end of a run, one on each line.
+fn final_values(lab: &Lab, table: &Table) -> String {
+    let mut text = String::new();
+    let rows = final_cells(lab, table);
+    let width = rows.iter().map(|(label, _)| label.chars().count()).max().unwrap_or(0);
+    for (label, value) in rows {
+        let _ = writeln!(text, "  {label}{}  {value}", " ".repeat(width - label.chars().count()));
+    }
+    text
+}
+
+/// The label and the last value of each trace and each readout.
+fn final_cells(lab: &Lab, table: &Table) -> Vec<(String, String)> {
+    let digits = |name: &str| {
+        let label = name.strip_prefix("readout/")?;
+        lab.readouts.iter().find(|r| r.label.value == label).map(|r| r.digits())
+    };
+    let last = table.rows.last().into_iter().flatten();
+    let named = table.columns.iter().zip(last).skip(1);
+    named
+        .map(|(name, cell)| {
+            let label = name.strip_prefix("readout/").or_else(|| name.splitn(3, '/').nth(2)).unwrap_or(name);
+            (printable(label).into_owned(), printable(&cell.rounded(digits(name).unwrap_or(4))).into_owned())
+        })
+        .collect()
+}
+
+/// The last values of the runs of a comparison, with a column for each integrator.
+fn comparison_table(lab: &Lab, runs: &[ComparedRun]) -> String {
+    let mut rows: Vec<Vec<String>> = vec![vec![String::new()], vec!["largest energy drift".to_string()]];
+    for (i, run) in runs.iter().enumerate() {
+        let largest = rounded(stress::largest_drift(run), 4);
+        for (row, cell) in rows.iter_mut().zip([run.name.to_string(), largest]) {
+            row.push(cell);
+        }
+        for (k, (label, value)) in final_cells(lab, &run.table).into_iter().enumerate() {
+            if i == 0 {
+                rows.push(vec![label]);
+            }
+            if let Some(row) = rows.get_mut(k + 2) {
+                row.push(value);
+            }
+        }
+    }
+    let columns = runs.len() + 1;
+    let width = |column: usize| {
+        let cells = rows.iter().filter_map(|row| row.get(column));
+        cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
+    };
+    let widths: Vec<usize> = (0..columns).map(width).collect();
+    let mut text = String::new();
+    for row in &rows {
+        let mut line = String::new();
+        for (cell, width) in row.iter().zip(&widths) {
+            let _ = write!(line, "  {cell:<width$}");
+        }
+        let _ = writeln!(text, "{}", line.trim_end());
     }
     text
 }

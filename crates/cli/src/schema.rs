@@ -17,6 +17,8 @@ pub(super) struct SchemaArguments {
 enum Of {
     /// A lab
     Lab,
+    /// A lab that compares integrators
+    Integrators,
     /// A quiz
     Quiz,
     /// A JSON file: a lab, a quiz, or a list of them
@@ -26,6 +28,7 @@ enum Of {
 pub(super) fn schema(a: &SchemaArguments) -> Result<CommandOutcome, Failure> {
     let root = match a.of {
         Of::Lab => format::Root::Lab,
+        Of::Integrators => format::Root::Integrators,
         Of::Quiz => format::Root::Quiz,
         Of::Lesson => format::Root::Lesson,
     };

@@ -24,7 +24,11 @@ pub fn pages() -> Vec<(&'static str, String)> {
 
 /// File name and text of each schema.
 pub fn schemas() -> Vec<(&'static str, String)> {
-    vec![("lab.json", schema(format::Root::Lab)), ("quiz.json", schema(format::Root::Quiz))]
+    vec![
+        ("lab.json", schema(format::Root::Lab)),
+        ("integrators.json", schema(format::Root::Integrators)),
+        ("quiz.json", schema(format::Root::Quiz)),
+    ]
 }
 
 /// A schema as text.

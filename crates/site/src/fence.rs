@@ -6,9 +6,9 @@ use crate::models::{Delivery, ModelShelf};
 use crate::text::{escape, json_in_script, slug};
 use crate::twin::{lab_twin, quiz_twin};
 use crate::verified::short_hash;
-use labspec::markdown::{Block, BlockKind};
+use labspec::markdown::{Block, BlockKind, LAB_KINDS};
 use labspec::report::counted;
-use labspec::spec::{Lab, Lesson, ModelSource, Quiz};
+use labspec::spec::{Comparison, Lab, Lesson, ModelSource, Quiz};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -86,7 +86,7 @@ impl FenceWriter<'_> {
         let is_broken =
             lesson.is_broken(&block.span) || lesson.broken.iter().any(|b| contains(&block.span, b));
         match &block.kind {
-            BlockKind::Lab(name) if name == "simlab" => {
+            BlockKind::Lab(name) if LAB_KINDS.contains(&name.as_str()) => {
                 let entry = lesson
                     .labs
                     .iter()
@@ -106,7 +106,7 @@ impl FenceWriter<'_> {
     }
 
     fn lab(&mut self, block: &Block, lab: &Lab, number: usize, addresses: &mut dyn Addresses) -> FencePart {
-        let Some(json) = shown_json(&block.body.value) else {
+        let Some(json) = shown_json(&block.body.value, lab.comparison.as_ref()) else {
             return broken(block, "This lab cannot be read");
         };
         let digest = self.deliver([lab].into_iter());
@@ -133,7 +133,7 @@ impl FenceWriter<'_> {
     }
 
     fn quiz(&mut self, block: &Block, quiz: &Quiz, addresses: &mut dyn Addresses) -> FencePart {
-        let Some(json) = shown_json(&block.body.value) else {
+        let Some(json) = shown_json(&block.body.value, None) else {
             return broken(block, "This quiz cannot be read");
         };
         let digest = self.deliver(quiz.numbered().filter_map(|(_, question)| question.sim()));
@@ -184,10 +184,14 @@ impl FenceWriter<'_> {
     }
 }
 
-/// The JSON of a block as the elements need it, without what only a check reads. `None` where it is not JSON.
-fn shown_json(body: &str) -> Option<String> {
+/// The JSON of a block as the elements need it, without what only a check reads. `None` where it is not JSON. The list of
+/// integrators is always present: by it, the elements recognize a comparison.
+fn shown_json(body: &str, comparison: Option<&Comparison>) -> Option<String> {
     let mut value: Value = serde_json::from_str(body).ok()?;
     without_claims(&mut value);
+    if let (Some(comparison), Some(object)) = (comparison, value.as_object_mut()) {
+        object.insert("integrators".into(), comparison.integrators.as_slice().into());
+    }
     Some(value.to_string())
 }
 

@@ -10,7 +10,7 @@ use labspec::finding::Finding;
 use labspec::json::Scalar;
 use labspec::run::{Cell, RunOptions, Table, rounded};
 use labspec::spec::{ControlKind, Lab, Plot, Question, QuestionKind, Quiz};
-use labspec::stress::watched_run;
+use labspec::stress::{ComparedRun, compared_runs, join_runs, largest_drift, watched_run};
 use labspec_plot::{Chart, Series, line_chart};
 use std::fmt::Write;
 
@@ -47,7 +47,8 @@ pub(crate) fn lab_twin(lab: &Lab, models: Option<&Models>, addresses: &mut dyn A
         let _ = write!(out, "<p class=\"twin-title\">{}</p>", escape(lab.title()));
     }
     match run_lab(lab, models) {
-        Ok(table) => out.push_str(&results(lab, &table)),
+        Ok(LabRuns::One(table)) => out.push_str(&results(lab, &table)),
+        Ok(LabRuns::Compared(runs)) => out.push_str(&comparison(lab, &runs)),
         Err(why) => {
             let _ = write!(
                 out,
@@ -62,8 +63,14 @@ pub(crate) fn lab_twin(lab: &Lab, models: Option<&Models>, addresses: &mut dyn A
     out
 }
 
-/// The run of a lab as it loads, or the reason that there is none.
-fn run_lab(lab: &Lab, models: Option<&Models>) -> Result<Table, String> {
+/// The run of a lab as it loads, or a run for each integrator that it compares.
+enum LabRuns {
+    One(Table),
+    Compared(Vec<ComparedRun>),
+}
+
+/// The runs of a lab as it loads, or the reason that there are none.
+fn run_lab(lab: &Lab, models: Option<&Models>) -> Result<LabRuns, String> {
     let models = models.ok_or("its folder of models is not known")?;
     let mut findings: Vec<Finding> = Vec::new();
     let bound = check::bind(lab, models, &mut findings);
@@ -72,7 +79,11 @@ fn run_lab(lab: &Lab, models: Option<&Models>) -> Result<Table, String> {
     };
     match &bound {
         Some((model, programs, 0)) => {
-            watched_run(lab, model, programs, &RunOptions::default()).map_err(|e| e.0)
+            let options = RunOptions::default();
+            match compared_runs(lab, model, programs, &options).map_err(|e| e.0)? {
+                Some(runs) => Ok(LabRuns::Compared(runs)),
+                None => watched_run(lab, model, programs, &options).map(LabRuns::One).map_err(|e| e.0),
+            }
         }
         _ => Err(first()),
     }
@@ -80,13 +91,7 @@ fn run_lab(lab: &Lab, models: Option<&Models>) -> Result<Table, String> {
 
 fn results(lab: &Lab, table: &Table) -> String {
     let Some(last) = table.rows.last() else { return String::new() };
-    let time = last.first().map_or(f64::NAN, Cell::number);
-    let mut out = format!("<p>The lab after {} s of simulated time", escape(&rounded(time, 3)));
-    let settings = settings(lab);
-    if !settings.is_empty() {
-        let _ = write!(out, ", with {}", escape(&settings));
-    }
-    out.push_str(".</p>");
+    let mut out = setting_line(lab, table);
     let readouts = lab.readouts.iter().filter_map(|readout| {
         let name = format!("readout/{}", readout.label.value);
         let column = table.columns.iter().position(|c| *c == name)?;
@@ -100,6 +105,41 @@ fn results(lab: &Lab, table: &Table) -> String {
     if !rows.is_empty() {
         let _ = write!(out, "<dl class=\"readouts\">{rows}</dl>");
     }
+    out.push_str(&plots(lab, table));
+    out
+}
+
+/// A table with a column for each integrator, and the plots with a curve for each.
+fn comparison(lab: &Lab, runs: &[ComparedRun]) -> String {
+    let (joined, table) = join_runs(lab, runs);
+    let mut out = setting_line(lab, &table);
+    let heads: String =
+        runs.iter().map(|run| format!("<th scope=\"col\">{}</th>", escape(run.name))).collect();
+    let largest = runs.iter().map(|run| rounded(largest_drift(run), 4)).collect();
+    let mut rows: Vec<(&str, Vec<String>)> = vec![("largest energy drift", largest)];
+    for readout in &lab.readouts {
+        let name = format!("readout/{}", readout.label.value);
+        let value = |run: &ComparedRun| {
+            let column = run.table.columns.iter().position(|c| *c == name);
+            let last = run.table.rows.last().zip(column).and_then(|(row, column)| row.get(column));
+            last.unwrap_or(&Cell::Nothing).rounded(readout.digits())
+        };
+        rows.push((readout.label.as_str(), runs.iter().map(value).collect()));
+    }
+    let _ = write!(out, "<table class=\"comparison\"><thead><tr><td></td>{heads}</tr></thead><tbody>");
+    for (label, values) in rows {
+        let cells: String =
+            values.iter().map(|value| format!("<td>{}</td>", escape(&with_minus(value)))).collect();
+        let _ = write!(out, "<tr><th scope=\"row\">{}</th>{cells}</tr>", escape(label));
+    }
+    out.push_str("</tbody></table>");
+    out.push_str(&plots(&joined, &table));
+    out
+}
+
+/// The plots of a lab, and what went wrong in its run.
+fn plots(lab: &Lab, table: &Table) -> String {
+    let mut out = String::new();
     for (index, plot) in lab.plots.iter().enumerate() {
         let svg = line_chart(&chart(lab, plot, index, table));
         let _ = write!(out, "<div class=\"plot\">{}</div>", svg.trim_end());
@@ -139,9 +179,22 @@ fn raised(unit: &str) -> String {
     out
 }
 
+/// The length of a run and the values of the controls, as a paragraph.
+fn setting_line(lab: &Lab, table: &Table) -> String {
+    let time = table.rows.last().and_then(|row| row.first()).map_or(f64::NAN, Cell::number);
+    let mut out = format!("<p>The lab after {} s of simulated time", escape(&rounded(time, 3)));
+    let settings = settings(lab);
+    if !settings.is_empty() {
+        let _ = write!(out, ", with {}", escape(&settings));
+    }
+    out.push_str(".</p>");
+    out
+}
+
 /// The values of the controls at the start, in words.
 fn settings(lab: &Lab) -> String {
-    let parts = lab.controls.iter().filter_map(|control| {
+    // The table shows what is compared.
+    let parts = lab.authored_controls().iter().filter_map(|control| {
         let label = control.label.as_str();
         match &control.kind {
             ControlKind::Slider { unit, value, .. } => {

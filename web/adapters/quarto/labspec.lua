@@ -169,6 +169,13 @@ local function remove_claims(object)
   end
 end
 
+-- The elements recognize a comparison by its list of integrators; an empty list names all.
+local function add_comparison(object)
+  local listed = get(object, 'integrators')
+  if listed and listed.kind == 'list' then return end
+  object.members[#object.members + 1] = { key = 'integrators', written = '"integrators"', value = { kind = 'list', items = {} } }
+end
+
 -- The labs of a content: itself, or those of its questions.
 local function labs_of(kind, content)
   if kind == 'lab' then return { content } end
@@ -289,7 +296,8 @@ end
 
 -- Elements ------------------------------------------------------------------------------------------------------------
 
-local count, ids, other_widgets = 0, {}, {}
+-- `widgets`: by the text of a lab, the word after `lab`, where it is another one than `simlab`.
+local count, ids, widgets = 0, {}, {}
 
 local function unique_id(wanted)
   local id, n = wanted, 2
@@ -302,9 +310,10 @@ local function slug(text)
   return (text:lower():gsub('[^%w\128-\255]+', '-'):gsub('^%-', ''):gsub('%-$', ''))
 end
 
-local function element(kind, text)
+local function element(kind, text, widget)
   local content = read_json(text)
   remove_claims(content)
+  if widget == 'integrators' then add_comparison(content) end
   local scripts = place_models(kind, content)
   local quiz = kind == 'quiz' and get(content, 'id') or nil
   local name = quiz and quiz.kind == 'string' and string_value(quiz.written) or ''
@@ -316,9 +325,9 @@ local function element(kind, text)
 end
 
 -- The element of a fence; for a fence that cannot be read, a message and its source.
-local function convert(kind, text, block)
+local function convert(kind, text, block, widget)
   if kind == 'lab' then count = count + 1 end
-  local done, result = pcall(element, kind, text)
+  local done, result = pcall(element, kind, text, widget)
   if done then return pandoc.RawBlock('html', result) end
   if type(result) ~= 'table' or not result.labspec then error(result, 0) end
   local message = ('This %s cannot be displayed: %s'):format(kind, result.labspec)
@@ -332,11 +341,15 @@ local function is_page()
   return FORMAT:match('html') ~= nil or FORMAT == 'revealjs' or FORMAT == 'slidy' or FORMAT == 's5' or FORMAT == 'dzslides'
 end
 
+-- The words after `lab` that name labs; those of other widgets stay.
+local is_lab = { simlab = true, integrators = true }
+
 local function code_block(block)
   local first, second = block.classes[1], block.classes[2]
   if first == 'quiz' then return convert('quiz', block.text, block) end
-  if first ~= 'lab' or (second and second ~= 'simlab') or other_widgets[block.text] then return nil end
-  return convert('lab', block.text, block)
+  if first ~= 'lab' then return nil end
+  local widget = second or widgets[block.text] or 'simlab'
+  return is_lab[widget] and convert('lab', block.text, block, widget) or nil
 end
 
 -- In pandoc's own Markdown, an opening line of two words makes a fence inline code, in which line breaks are spaces. JSON has none
@@ -344,16 +357,16 @@ end
 local function inline_fence(block)
   local code = #block.content == 1 and block.content[1] or nil
   if not code or code.t ~= 'Code' then return nil end
-  local text = code.text:match('^lab +simlab +({.*})$')
-  return text and convert('lab', text, block) or nil
+  local widget, text = code.text:match('^lab +(%w+) +({.*})$')
+  return is_lab[widget or ''] and convert('lab', text, block, widget) or nil
 end
 
--- Pandoc drops the second word of an opening line: the sources say which labs are of other widgets.
-local function find_other_widgets()
+-- Pandoc drops the second word of an opening line: the sources say which word it was.
+local function find_widgets()
   for _, path in ipairs(PANDOC_STATE.input_files) do
     local source = (read_file(path) or ''):gsub('\r', '')
     for marks, widget, body in source:gmatch('\n?(```+)%s*lab +([%w_-]+)[^\n]*\n(.-)\n```') do
-      if #marks >= 3 and widget ~= 'simlab' then other_widgets[body] = true end
+      if #marks >= 3 and widget ~= 'simlab' then widgets[body] = widget end
     end
   end
 end
@@ -373,7 +386,7 @@ end
 function Pandoc(document)
   if not is_page() then return nil end
   read_settings(document.meta)
-  find_other_widgets()
+  find_widgets()
   -- Blocks are visited in the order of the page, so that labs are numbered as in the lesson.
   document.blocks = document.blocks:walk({
     traverse = 'topdown', CodeBlock = code_block, Para = inline_fence, Plain = inline_fence,

@@ -15,13 +15,19 @@ export function isObject(x: unknown): x is Json {
 }
 
 /**
- * The kind of a fence by its info string: `lab`, `lab simlab` and `quiz`, with attributes after them. `null` for any other fence, and for
- * labs of other widgets, which are left as they are.
+ * The kind of a fence by its info string: `lab`, `lab simlab`, `lab integrators` and `quiz`, with attributes after them. `null` for any other
+ * fence, and for labs of other widgets, which are left as they are.
  */
 export function fenceKind(info: string): FenceKind | null {
   const [first, second = "simlab"] = info.trim().split(/\s+/);
   if (first === "quiz") return "quiz";
-  return first === "lab" && (second === "simlab" || second.startsWith("{")) ? "lab" : null;
+  return first === "lab" && (second === "simlab" || second === "integrators" || second.startsWith("{")) ? "lab" : null;
+}
+
+/** The content of a fence as the elements need it: they recognize a comparison by its list of integrators, and an empty list names all. */
+export function withComparison(info: string, content: Json): Json {
+  const compares = /^\s*lab\s+integrators(?:\s|$)/.test(info);
+  return compares && !Array.isArray(content["integrators"]) ? { ...content, integrators: [] } : content;
 }
 
 /** Reads the JSON of a fence without `verify` and `lint`. Throws a `FenceError`. */

@@ -1,6 +1,6 @@
 /** The fences of one page as elements. */
 import { jsonInScript, modelInScript, type DataScript, type FenceElement } from "./element.js";
-import { FenceError, fenceKind, mapLabs, readFence, toJson, type FenceKind, type Json } from "./fence.js";
+import { FenceError, fenceKind, mapLabs, readFence, toJson, withComparison, type FenceKind, type Json } from "./fence.js";
 import { readModel, type ModelOptions } from "./models.js";
 
 /** How fences become elements. */
@@ -37,7 +37,7 @@ export function convertFence(info: string, text: string, page: Page): Converted 
   if (kind === null) return null;
   if (kind === "lab") page.labs += 1;
   try {
-    const read = readFence(text);
+    const read = withComparison(info, readFence(text));
     const models = modelsOf(kind, read, page);
     const { content, inScripts } = placeModels(kind, read, models, page.options);
     const json = toJson(content);

@@ -11,9 +11,9 @@ import { repository, root, run } from "./tools.mjs";
 const specs = { root: repository, models: "specs/models" };
 
 test("the kinds of fences", () => {
-  const kinds = { lab: "lab", "lab simlab": "lab", " lab\tsimlab {#drop}": "lab", "lab {.wide}": "lab", quiz: "quiz", "quiz {#q}": "quiz" };
+  const kinds = { lab: "lab", "lab simlab": "lab", " lab\tsimlab {#drop}": "lab", "lab {.wide}": "lab", "lab integrators": "lab", "lab integrators {#x}": "lab", quiz: "quiz", "quiz {#q}": "quiz" };
   for (const [info, kind] of Object.entries(kinds)) assert.equal(fenceKind(info), kind, info);
-  for (const info of ["", "lab playground", "lab simlabs", "labs", "quizzes", "json lab", "python file=lab", "{lab}"]) assert.equal(fenceKind(info), null, info);
+  for (const info of ["", "lab playground", "lab simlabs", "lab integrator", "labs", "quizzes", "json lab", "python file=lab", "{lab}"]) assert.equal(fenceKind(info), null, info);
 });
 
 test("every fence of the example course: the same content without claims, and its models", () => {
@@ -32,6 +32,13 @@ test("claims are removed where a check reads them, and nowhere else", () => {
   assert.deepEqual(elementsOf(fenceHtml("lab", lab, createPage()))[0].content, { xml: "<mujoco/>", overlays: { verify: true }, controls: [{ lint: 2 }] });
   const quiz = '{"id": "q", "lint": 1, "questions": [{"q": "?", "verify": 1, "lint": 2, "sim": {"xml": "", "verify": 3}, "options": ["verify"]}, 5]}';
   assert.deepEqual(elementsOf(fenceHtml("quiz", quiz, createPage()))[0].content, { id: "q", questions: [{ q: "?", sim: { xml: "" }, options: ["verify"] }, 5] });
+});
+
+test("a lab that compares integrators has a list of them", () => {
+  const listOf = (info, lab) => elementsOf(fenceHtml(info, lab, createPage()))[0].content.integrators;
+  assert.deepEqual(listOf("lab integrators", '{"integrators": ["RK4"]}'), ["RK4"]);
+  for (const lab of ["{}", '{"integrators": "RK4"}', '{"integrators": null}']) assert.deepEqual(listOf(" lab  integrators {.wide}", lab), []);
+  for (const info of ["lab", "lab simlab", "quiz"]) assert.equal(listOf(info, "{}"), undefined);
 });
 
 test("ids are unique on a page, and every lab counts", () => {

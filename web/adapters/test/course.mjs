@@ -9,7 +9,7 @@ export const lessonFiles = readdirSync(lessons).filter((name) => name.endsWith("
 /** The fences of the example lessons: their info strings and texts. */
 export const fences = lessonFiles.flatMap((name) => {
   const text = readFileSync(join(lessons, name), "utf8");
-  return [...text.matchAll(/^```(lab simlab|quiz)\n([^]*?)\n```$/gm)].map(([, info, body], i) => ({ name: `${name}#${i + 1}`, info, body }));
+  return [...text.matchAll(/^```(lab simlab|lab integrators|quiz)\n([^]*?)\n```$/gm)].map(([, info, body], i) => ({ name: `${name}#${i + 1}`, info, body }));
 });
 
 /** Texts that would end a script, an attribute, a comment or a template if they were written as they are. */

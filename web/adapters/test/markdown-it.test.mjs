@@ -16,7 +16,7 @@ test("every lesson: the elements of its fences in order; a page begins with each
   for (const name of lessonFiles) {
     const text = readFileSync(join(lessons, name), "utf8");
     const page = createPage({ root: repository }, join(lessons, name));
-    const expected = [...text.matchAll(/^```(lab simlab|quiz)\n([^]*?)\n```$/gm)].flatMap(([, info, body]) => elementsOf(fenceHtml(info, body, page)));
+    const expected = [...text.matchAll(/^```(lab simlab|lab integrators|quiz)\n([^]*?)\n```$/gm)].flatMap(([, info, body]) => elementsOf(fenceHtml(info, body, page)));
     assert.ok(expected.length > 0);
     for (let i = 0; i < 2; i++) assert.deepEqual(elementsOf(md.render(text, { path: join(lessons, name) })), expected, name);
   }

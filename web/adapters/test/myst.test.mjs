@@ -35,7 +35,7 @@ test("every lesson: widgets with the contents of its fences and their models", {
   const { folder, widgets, printed } = build(t, files, { root: repository, models: "specs/models" });
   assert.doesNotMatch(printed, /cannot be displayed/);
   for (const name of lessonFiles) {
-    const expected = [...files[`lessons/${name}`].matchAll(/^```(lab simlab|quiz)\n([^]*?)\n```$/gm)].map(([, info, body]) => [info === "quiz" ? "quiz" : "lab", withoutClaims(JSON.parse(body)), [...body.matchAll(/"model": "(\w+)"/g)].map(([, model]) => model)]);
+    const expected = [...files[`lessons/${name}`].matchAll(/^```(lab simlab|lab integrators|quiz)\n([^]*?)\n```$/gm)].map(([, info, body]) => [info === "quiz" ? "quiz" : "lab", withoutClaims(JSON.parse(body)), [...body.matchAll(/"model": "(\w+)"/g)].map(([, model]) => model)]);
     const found = widgets(`lessons/${name}`);
     assert.equal(found.length, expected.length, name);
     for (const [i, [kind, content, models]] of expected.entries()) {

@@ -23,7 +23,7 @@ function convert({ text, file, from = "gfm", to = "html", metadata = null, cwd =
 
 const expectedOf = (name) => {
   const page = createPage({ root: repository }, join(lessons, name));
-  return [...readFileSync(join(lessons, name), "utf8").matchAll(/^```(lab simlab|quiz)\n([^]*?)\n```$/gm)].flatMap(([, info, body]) => elementsOf(fenceHtml(info, body, page)));
+  return [...readFileSync(join(lessons, name), "utf8").matchAll(/^```(lab simlab|lab integrators|quiz)\n([^]*?)\n```$/gm)].flatMap(([, info, body]) => elementsOf(fenceHtml(info, body, page)));
 };
 
 for (const from of ["gfm", "commonmark_x", "markdown"]) {
@@ -101,6 +101,11 @@ test("settings, models in other places, other widgets, other formats", options, 
   assert.match(address, /<sim-lab id="lab-1" models="\/m&gt;&lt;x"><script type="application\/json">\{"model":"m"\}<\/script><\/sim-lab>/);
   assert.doesNotMatch(address, /labspec-elements/);
   assert.match(convert({ text: "```lab\n{\"model\": \"f\"}\n```\n", cwd: folder }).messages[0], /reads other files/);
+  writeFileSync(join(folder, "a/b/compared.md"), '```lab integrators\n{"stopAt": 1}\n```\n\n```{.lab .integrators}\n{"integrators": ["RK4"]}\n```\n');
+  for (const from of ["commonmark_x", "markdown"]) {
+    const compared = elementsOf(convert({ file: "a/b/compared.md", cwd: folder, from }).html).map(({ content }) => content.integrators);
+    assert.deepEqual(compared, [[], ["RK4"]], from);
+  }
   for (const from of ["commonmark_x", "markdown"]) assert.equal(elementsOf(convert({ text: "```{.lab .simlab}\n{}\n```\n\n```{.lab .other}\n{}\n```\n", from }).html).length, 1);
   assert.doesNotMatch(convert({ file, cwd: folder, to: "latex" }).html, /sim-lab/);
 });

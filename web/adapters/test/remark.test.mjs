@@ -21,7 +21,7 @@ test("every lesson: the elements of its fences in order, without raw HTML", asyn
     const text = readFileSync(join(lessons, name), "utf8");
     const file = await convert(text, {}, join(lessons, name));
     const page = createPage({ root: repository }, join(lessons, name));
-    const expected = [...text.matchAll(/^```(lab simlab|quiz)\n([^]*?)\n```$/gm)].flatMap(([, info, body]) => elementsOf(fenceHtml(info, body, page)));
+    const expected = [...text.matchAll(/^```(lab simlab|lab integrators|quiz)\n([^]*?)\n```$/gm)].flatMap(([, info, body]) => elementsOf(fenceHtml(info, body, page)));
     assert.deepEqual(elementsOf(String(file)), expected, name);
     assert.deepEqual(file.messages, []);
     count += expected.length;

@@ -12,7 +12,7 @@ const model = (name) => readFileSync(join(repository, `specs/models/${name}.xml`
 /** The first lab and the knowledge check of the first lesson. */
 function contents() {
   const text = readFileSync(join(repository, "specs/lessons/01-what-a-step-computes.md"), "utf8");
-  const bodies = [...text.matchAll(/^```(lab simlab|quiz)\n([^]*?)\n```$/gm)].map(([, , body]) => withoutClaims(JSON.parse(body)));
+  const bodies = [...text.matchAll(/^```(lab simlab|lab integrators|quiz)\n([^]*?)\n```$/gm)].map(([, , body]) => withoutClaims(JSON.parse(body)));
   return { lab: bodies[0], quiz: bodies.at(-1), models: { drop: model("drop"), fall: model("fall") } };
 }
 

@@ -6,7 +6,7 @@ import { serve } from "../test/page/site.mjs";
 
 const lesson = readFileSync(join(repository, "specs/lessons/01-what-a-step-computes.md"), "utf8");
 /** The fences alone: MDX reads braces of formulas as expressions. */
-const fences = lesson.match(/^```(?:lab simlab|quiz)\n[^]*?\n```$/gm).join("\n\n");
+const fences = lesson.match(/^```(?:lab simlab|lab integrators|quiz)\n[^]*?\n```$/gm).join("\n\n");
 const options = { root: repository, models: "specs/models" };
 const plugin = (name) => JSON.stringify(join(root, "dist", `${name}.js`));
 

@@ -41,6 +41,8 @@ export interface LabSpec {
   readonly speeds: readonly number[];
   readonly stopAt: number | null;
   readonly plots: readonly PlotSpec[];
+  /** The labs of the integrators that it compares; empty for another lab. */
+  readonly compared: readonly { readonly name: string; readonly json: string }[];
 }
 
 export const OVERLAYS: readonly Overlay[] = ["frames", "joints", "contacts", "forces", "com", "sites", "cameras", "shadows"];
@@ -70,7 +72,7 @@ export function readLab(lab: Json, json: string): LabSpec {
     overlays: Object.fromEntries(switched.filter(([name, on]) => overlay(name) && typeof on === "boolean")),
     toggles: listOf(lab["toggles"]).filter(overlay),
     forceScale: numberOf(lab["forceScale"]), trail: textOf(lab["trail"]), speeds: speeds.length > 0 ? speeds : SPEEDS,
-    stopAt: numberOf(lab["stopAt"]), plots: listOf(lab["plots"]).filter(isObject).map(readPlot),
+    stopAt: numberOf(lab["stopAt"]), plots: listOf(lab["plots"]).filter(isObject).map(readPlot), compared: [],
   };
 }
 

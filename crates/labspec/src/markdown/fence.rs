@@ -2,7 +2,7 @@
 
 use super::loose::bare_json;
 use super::opener::{Opener, opener};
-use super::{BlockKind, extent};
+use super::{BlockKind, LAB_KINDS, extent};
 use labspec_finding::nearest;
 use std::ops::Range;
 
@@ -37,9 +37,10 @@ pub(super) fn meant(open: &Opener, kind: &BlockKind, body: &str) -> Option<(&'st
     let lab = ("lab simlab", BlockKind::Lab("simlab".into()));
     let quiz = ("quiz", BlockKind::Quiz);
     match kind {
-        BlockKind::Lab(widget) if widget != "simlab" => {
-            (widget.starts_with('{') || nearest(widget, ["simlab"]).is_some()).then_some(lab)
-        }
+        BlockKind::Lab(widget) if !LAB_KINDS.contains(&widget.as_str()) => match nearest(widget, LAB_KINDS) {
+            Some("integrators") => Some(("lab integrators", BlockKind::Lab("integrators".into()))),
+            near => (widget.starts_with('{') || near.is_some()).then_some(lab),
+        },
         BlockKind::Code { language, .. } => {
             let holds_json = body.trim_start().starts_with(['{', '[']);
             match in_other_words(&open.words).filter(|_| holds_json) {

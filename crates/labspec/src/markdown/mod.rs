@@ -28,10 +28,13 @@ const MAX_REREAD: usize = 64 << 20;
 /// Maximum number of markup characters in a lesson: the Markdown parser stores about sixty bytes for each.
 pub(crate) const MAX_MARKUP: usize = 4 << 20;
 
+/// The kinds of labs, as the word after `lab` names them: a lab, and a lab that compares integrators.
+pub const LAB_KINDS: [&str; 2] = ["simlab", "integrators"];
+
 /// The content of a fence.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum BlockKind {
-    /// A lab, with the name of its widget; that of labspec is `simlab`.
+    /// A lab, with the name of its widget; those of labspec are the [`LAB_KINDS`].
     Lab(String),
     /// A quiz.
     Quiz,

@@ -25,7 +25,7 @@ fn check_lab(lab: &Lab, findings: &mut Vec<Finding>) {
         DUPLICATE_CONTROL,
         "controls have the label",
         DISTINCT,
-        lab.controls.iter().map(|c| &c.label),
+        lab.authored_controls().iter().map(|c| &c.label),
         findings,
     );
 }

@@ -2,7 +2,7 @@ use super::Check;
 use super::claims;
 use crate::json::Number;
 use crate::spec::Lesson;
-use crate::spec::format::{FIND, LAB, Object, PLOT, RUN};
+use crate::spec::format::{FIND, INTEGRATORS, LAB, Object, PLOT, RUN};
 use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// A time, size or speed is zero or negative.
@@ -32,6 +32,8 @@ fn check_lesson(lesson: &Lesson, findings: &mut Vec<Finding>) {
         positive(&LAB, "stopAt", lab.stop_at.as_ref(), "the time in seconds at which the lab pauses");
         positive(&LAB, "height", lab.height.as_ref(), "pixels");
         positive(&LAB, "forceScale", lab.force_scale.as_ref(), "metres per newton");
+        let timestep = lab.comparison.as_ref().and_then(|comparison| comparison.timestep.as_ref());
+        positive(&INTEGRATORS, "timestep", timestep, "the timestep in seconds");
         for speed in &lab.speeds {
             positive(&LAB, "speeds", Some(speed), "the playback speed relative to real time");
         }

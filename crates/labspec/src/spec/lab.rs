@@ -65,6 +65,23 @@ pub struct Lab {
     pub lint: Option<Allowance>,
     /// The expected result of its runs.
     pub expect: Option<Expect>,
+    /// What it compares, if it is a lab that compares integrators.
+    pub comparison: Option<Comparison>,
+}
+
+/// What a lab compares: its runs differ in the value of one control.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Comparison {
+    /// Byte range of the list of integrators, or of the opening brace of the lab.
+    pub span: Range<usize>,
+    /// The list as it is written; `None` if it is absent.
+    pub listed: Option<Vec<Text>>,
+    /// The timestep of all runs, s; `None` for that of the model.
+    pub timestep: Option<Number>,
+    /// The compared integrators, each once: those of the list that exist, or all.
+    pub integrators: Vec<&'static str>,
+    /// The index of the select among the controls of the lab: the last one.
+    pub control: usize,
 }
 
 /// The expected result of the runs of a lab, if it is not that they succeed.
@@ -143,6 +160,7 @@ impl Lab {
             verify: None,
             lint: None,
             expect: None,
+            comparison: None,
         }
     }
 
@@ -204,11 +222,17 @@ impl Lab {
         self.plots.iter().flat_map(|p| &p.traces)
     }
 
-    /// All texts that are code, each with its form, in the order of the lab format.
+    /// The controls that the author wrote: without the one that a comparison adds.
+    pub fn authored_controls(&self) -> &[Control] {
+        let count = self.comparison.as_ref().map_or(self.controls.len(), |comparison| comparison.control);
+        self.controls.get(..count).unwrap_or(&self.controls)
+    }
+
+    /// All texts that the author wrote as code, each with its form, in the order of the lab format.
     pub fn code(&self) -> Vec<(CodeForm, &Text)> {
         let statements = [&self.setup, &self.controller].into_iter().flatten();
         let mut all: Vec<(CodeForm, &Text)> = statements.map(|t| (CodeForm::Statements, t)).collect();
-        for control in &self.controls {
+        for control in self.authored_controls() {
             if let super::ControlKind::Button { run } = &control.kind {
                 all.push((CodeForm::Statements, run));
             }
@@ -217,7 +241,9 @@ impl Lab {
                 all.extend(action.apply.iter().map(|t| (CodeForm::Statements, t)));
             }
         }
-        let exprs = self.traces().map(|t| &t.expr).chain(self.readouts.iter().map(|r| &r.expr));
+        // A comparison adds the first plot.
+        let added = usize::from(self.comparison.is_some());
+        let exprs = self.traces().skip(added).map(|t| &t.expr).chain(self.readouts.iter().map(|r| &r.expr));
         all.extend(exprs.map(|t| (CodeForm::Expression, t)));
         all
     }

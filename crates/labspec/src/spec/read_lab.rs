@@ -2,7 +2,8 @@
 
 use super::address::LabAddress;
 use super::fields::Fields;
-use super::format::{CAMERA, LAB, RUN, VERIFY};
+use super::format::{CAMERA, INTEGRATORS, LAB, Object, RUN, VERIFY};
+use super::integrators::{add_comparison, read_comparison};
 use super::lab::{Camera, Expect, Lab, Run, Verify, VerifyLab};
 use super::problem::{Mistake, Problem};
 use super::read_claim::{
@@ -15,7 +16,22 @@ use crate::source::Text;
 
 /// Reads a lab.
 pub(super) fn read_lab(node: &Node, problems: &mut Vec<Problem>) -> Option<Lab> {
-    let mut fields = Fields::open(node, &LAB, problems)?;
+    read_keys(node, &LAB, problems)
+}
+
+/// Reads a lab that compares integrators.
+pub(super) fn read_integrators(node: &Node, problems: &mut Vec<Problem>) -> Option<Lab> {
+    read_keys(node, &INTEGRATORS, problems)
+}
+
+/// Reads a lab outside of a fence, whose keys decide about its kind.
+pub(super) fn read_any_lab(node: &Node, problems: &mut Vec<Problem>) -> Option<Lab> {
+    let compares = node.get("integrators").is_some();
+    if compares { read_integrators(node, problems) } else { read_lab(node, problems) }
+}
+
+fn read_keys(node: &Node, object: &'static Object, problems: &mut Vec<Problem>) -> Option<Lab> {
+    let mut fields = Fields::open(node, object, problems)?;
     let f = &mut fields;
     let lab = Lab {
         span: f.span(),
@@ -44,10 +60,16 @@ pub(super) fn read_lab(node: &Node, problems: &mut Vec<Problem>) -> Option<Lab> 
         verify: f.node("verify").and_then(|n| read_verify(n, f.problems)),
         lint: allow::read_allowance(f.node("lint"), f.span(), f.problems),
         expect: f.text("expect").and_then(|t| read_expect(&t, f.problems)),
+        comparison: None,
     };
+    let comparison = (object.name == INTEGRATORS.name).then(|| read_comparison(f));
     let listed = f.list("controls").len();
     fields.finish();
-    Some(Lab { unread_controls: lab.controls.len() < listed || no_list_of_controls(node), ..lab })
+    let lab = Lab { unread_controls: lab.controls.len() < listed || no_list_of_controls(node), ..lab };
+    Some(match comparison {
+        Some(comparison) => add_comparison(lab, comparison),
+        None => lab,
+    })
 }
 
 /// Whether the list of controls itself could not be read.

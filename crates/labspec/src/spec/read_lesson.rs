@@ -5,10 +5,10 @@ use super::kind::{FileKind, Nature, kind_of, nature};
 use super::lab::Lab;
 use super::lesson::{LabEntry, Lesson, Widget};
 use super::problem::{Mistake, Problem};
-use super::read_lab::read_lab;
+use super::read_lab::{read_any_lab, read_integrators, read_lab};
 use super::{comment, quiz, shared};
 use crate::json::{self, Json, Node};
-use crate::markdown::{self, Block, BlockKind, Scan};
+use crate::markdown::{self, Block, BlockKind, LAB_KINDS, Scan};
 use crate::source::{MAX_FILE, SourceFile, SourceMap};
 use std::ops::Range;
 use std::path::Path;
@@ -60,7 +60,7 @@ pub(crate) fn read_lab_json(file: &SourceFile) -> (Option<Lab>, Vec<Problem>) {
             _ => std::slice::from_ref(&node),
         };
         match items.iter().find(|item| nature(item) == Nature::Lab) {
-            Some(item) => lab = read_lab(item, &mut problems),
+            Some(item) => lab = read_any_lab(item, &mut problems),
             None if node.is_broken() => {}
             None => problems.push(Mistake::UnknownObject.at(node.span.clone())),
         }
@@ -109,7 +109,7 @@ fn markdown_file(lesson: &mut Lesson, at: Option<Range<usize>>) {
             break;
         }
         match &block.kind {
-            BlockKind::Lab(widget) if widget == "simlab" => {
+            BlockKind::Lab(kind) if LAB_KINDS.contains(&kind.as_str()) => {
                 let node = body(block, &at, lesson);
                 if let Some(node) = &node
                     && nature(node) == Nature::Quiz
@@ -119,7 +119,8 @@ fn markdown_file(lesson: &mut Lesson, at: Option<Range<usize>>) {
                     lesson.quizzes.extend(quiz::read_quiz(node, &mut lesson.problems));
                     continue;
                 }
-                let lab = node.and_then(|node| read_lab(&node, &mut lesson.problems));
+                let read = if kind == "integrators" { read_integrators } else { read_lab };
+                let lab = node.and_then(|node| read(&node, &mut lesson.problems));
                 push_lab(lesson, block.span.clone(), lab);
             }
             BlockKind::Lab(widget) => {
@@ -199,7 +200,7 @@ fn json_item(lesson: &mut Lesson, node: &Node) {
     match nature(node) {
         Nature::Quiz => lesson.quizzes.extend(quiz::read_quiz(node, &mut lesson.problems)),
         Nature::Lab => {
-            let lab = read_lab(node, &mut lesson.problems);
+            let lab = read_any_lab(node, &mut lesson.problems);
             push_lab(lesson, node.span.clone(), lab);
         }
         Nature::Neither if node.is_broken() => {}

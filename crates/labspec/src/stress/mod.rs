@@ -10,10 +10,12 @@
 //! * `height_field`, `creep`, `runaway`, `watch`: monitors of a run
 //! * `run_faults`, `case`, `drift`: a run under an interaction, and its faults
 //! * `messages`: the messages for authors, and shorter timesteps that help
+//! * `compared`: the runs of a lab that compares integrators
 
 mod bodies;
 mod case;
 mod causes;
+mod compared;
 mod creep;
 mod drift;
 mod fault;
@@ -27,6 +29,7 @@ mod watch;
 
 pub use bodies::{body_name, body_of};
 pub use case::{Change, RunOutcome, StressCase};
+pub use compared::{ComparedRun, compared_runs, join_runs, largest_drift};
 pub use drift::without_pushed_bodies;
 pub use fault::{Fault, FaultEvidence, FaultGroup, FaultKind, add_fault, worst_fault};
 pub use interaction::{Action, Interaction, InteractionKind, list_interactions, window};

@@ -5,11 +5,12 @@ import { deferred } from "../deferred.js";
 import { h, takeOwnProperty } from "../dom.js";
 import { EngineError, prepareEngine } from "../engine/client.js";
 import { createBadge } from "../proof/badge.js";
-import { readLab } from "../spec.js";
+import type { LabSpec } from "../spec.js";
 import { prepareViews } from "../view/index.js";
 import { decodeState, stateInFragment, StateError } from "../state/fragment.js";
 import { applyStyles, watchTheme } from "../style/apply.js";
 import { messagesFor, type Say } from "../text/messages.js";
+import { readSpec } from "./integrators.js";
 import { errorPanel, findingText } from "./layout.js";
 import { joinLink, type Link } from "./links.js";
 import { openPanel, type Panel } from "./panel.js";
@@ -188,7 +189,7 @@ export class SimLab extends HTMLElement {
     try {
       await childrenRead();
       const { json, text } = await readContent(this, this.#lab, say("noLab"), say);
-      const spec = readLab(json, text);
+      const spec = readSpec(json, text);
       const models = await readModels(this, this.#models, spec.model, say);
       if (isOld()) return;
       const [panel, remark] = await this.#openInState(spec, models, say);
@@ -213,7 +214,7 @@ export class SimLab extends HTMLElement {
   }
 
   /** Opens the lab in the requested state. If the state is refused, the lab opens at its start, with the reason. */
-  async #openInState(spec: ReturnType<typeof readLab>, models: Models, say: Say): Promise<[Panel, string | null]> {
+  async #openInState(spec: LabSpec, models: Models, say: Say): Promise<[Panel, string | null]> {
     const open = (state: Uint8Array | null): Promise<Panel> => openPanel(spec, models, state, this.#key(), say, {
       moved: (label, value) => (value === null ? this.#link?.pressed(label) : this.#link?.moved(label, value)),
       change: (label, value, time) => {

@@ -2,16 +2,19 @@
 import type { ControlValue, Models } from "labspec/slim";
 import { fileName, h, saveFile } from "../dom.js";
 import { openRemote, type RemoteLab } from "../engine/client.js";
+import { openCompared } from "../engine/compared.js";
 import type { EngineEvent, Frame } from "../engine/messages.js";
 import { createPlot } from "../plot/plot.js";
-import type { Series } from "../plot/series.js";
+import { createSeries, type Series } from "../plot/series.js";
 import type { LabSpec } from "../spec.js";
 import { checkState, encodeState, fragmentWith } from "../state/fragment.js";
 import type { Say } from "../text/messages.js";
 import { formatTime } from "../text/numbers.js";
 import { safeHtml } from "../text/sanitize.js";
 import { allTextures } from "../texture/textures.js";
+import { createComparison } from "./comparison.js";
 import { createControls } from "./controls.js";
+import { INTEGRATOR } from "./integrators.js";
 import { layOut } from "./layout.js";
 import { createPlayer, type Player } from "./player.js";
 import { createReadouts } from "./readouts.js";
@@ -60,7 +63,8 @@ export interface Panel {
 
 /** Opens a lab, and builds its parts. `key` is its name in addresses. */
 export async function openPanel(spec: LabSpec, models: Models, state: Uint8Array | null, key: string, say: Say, events: PanelEvents): Promise<Panel> {
-  const remote = await openRemote(spec.json, models, state);
+  const compares = spec.compared.length > 0;
+  const remote = await (compares ? openCompared(spec.compared, INTEGRATOR, models, state) : openRemote(spec.json, models, state));
   const { opened } = remote;
   const title = spec.title === "" ? say("lab") : spec.title;
   const spoken = createSpoken(say);
@@ -128,11 +132,14 @@ export async function openPanel(spec: LabSpec, models: Models, state: Uint8Array
       void move(label, null);
     },
   });
-  const readouts = createReadouts(opened.shown, say("readouts"));
   const plots = spec.plots.map((plot, p) => {
     const columns = opened.shown.flatMap((one, i) => (one.plot === p ? [i] : []));
     return createPlot(plot, columns, title, say);
   });
+  const names = spec.compared.map(({ name }) => name);
+  const readouts = compares
+    ? createComparison(names, opened.shown, plots[0]?.series ?? createSeries(names.length), say)
+    : createReadouts(opened.shown, say("readouts"));
   const describe = (): string => {
     const traces = plots.flatMap((plot) => plot.describe());
     return [say("paused", { time: formatTime(frame.time) }), readouts.describe(), ...traces].filter((text) => text !== "").join(" ");

@@ -26,6 +26,8 @@ export const german: Messages = {
   stateTooLong: "bis dorthin wären zu viele Schritte nötig",
   controls: "Regler",
   readouts: "Messwerte",
+  integrator: "Integrator",
+  largestDrift: "größte Drift",
   overlays: "Anzeigen",
   camera: "Kamera",
   freeCamera: "Freie Kamera",

@@ -24,6 +24,8 @@ export const english = {
   stateTooLong: "it would take too many steps to reach",
   controls: "Controls",
   readouts: "Readouts",
+  integrator: "Integrator",
+  largestDrift: "largest drift",
   overlays: "Show",
   camera: "Camera",
   freeCamera: "Free camera",

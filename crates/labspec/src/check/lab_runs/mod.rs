@@ -2,6 +2,7 @@
 //! its ends, then further interactions.
 
 mod attempt;
+mod compared;
 mod display;
 mod interactions;
 mod seen;
@@ -14,6 +15,7 @@ use crate::run::{self, Budget};
 use crate::spec::{Control, ControlKind, Lab, LabAddress, Lesson};
 use crate::stress::{self, Action, Fault, FaultGroup, Interaction, InteractionKind, StressCase};
 use attempt::{Attempt, EndedRun};
+use compared::ComparedFindings;
 pub(crate) use display::{WatchedDisplay, moment};
 use labspec_expr::Value;
 use seen::LabDisplays;
@@ -60,7 +62,16 @@ struct Trial<'a> {
 impl Trial<'_> {
     /// The span for findings.
     fn place(&self, lab: &Lab) -> Range<usize> {
-        self.control.map_or(lab.place(), |c| c.label.span())
+        match self.control.filter(|_| !self.compares(lab)) {
+            Some(control) => control.label.span(),
+            None => lab.place(),
+        }
+    }
+
+    /// Whether it moves the control whose values the lab compares.
+    fn compares(&self, lab: &Lab) -> bool {
+        let moved = self.moved.as_ref().map(|(index, _)| *index);
+        lab.comparison.as_ref().is_some_and(|comparison| Some(comparison.control) == moved)
     }
 }
 
@@ -86,6 +97,8 @@ struct LabRunState<'a> {
     lost: bool,
     /// Whether it breaks or does not start as loaded: it would with every control.
     has_no_remedy: bool,
+    /// The findings of the runs that a lab compares.
+    compared: ComparedFindings,
 }
 
 impl LabRunState<'_> {
@@ -132,6 +145,7 @@ pub(super) fn run_labs(
         others = others.saturating_sub(1);
         let before = share;
         go_on(state, &mut share, found);
+        found.extend(state.compared.take());
         left -= before - share;
         let all = state.tried.as_ref().is_some_and(|t| t.skipped == 0 && t.ended.is_none());
         found.extend(state.seen.never(all));
@@ -190,9 +204,13 @@ fn begin<'a>(
         records: Vec::new(),
         lost: false,
         has_no_remedy: false,
+        compared: ComparedFindings::default(),
     };
     let Some(first) = state.left.next() else { return state };
-    match attempt::make(ready, &state.case, &first, budget, &mut state.seen, findings) {
+    let mut of_trial = Vec::new();
+    let made = attempt::make(ready, &state.case, &first, budget, &mut state.seen, &mut of_trial);
+    findings.extend(state.compared.add(&first, ready.lab, of_trial));
+    match made {
         Ok(attempt) => {
             *left = left.saturating_sub(attempt.spent);
             if !attempt.broke
@@ -221,8 +239,10 @@ fn begin<'a>(
         }
     }
     if state.has_no_remedy {
-        let skipped = state.left.by_ref().count();
-        state.skip(skipped);
+        // What a lab compares is run nevertheless: one integrator may break where another does not.
+        let (compared, rest): (Vec<_>, Vec<_>) = state.left.partition(|trial| trial.compares(ready.lab));
+        state.left = compared.into_iter();
+        state.skip(rest.len());
     }
     state
 }
@@ -235,7 +255,10 @@ fn go_on(state: &mut LabRunState<'_>, left: &mut u64, findings: &mut Vec<Finding
             return state.skip(skipped);
         }
         let budget = Budget { left: Budget::TRIAL.left.min(*left) };
-        match attempt::make(state.ready, &state.case, &trial, budget, &mut state.seen, findings) {
+        let mut of_trial = Vec::new();
+        let made = attempt::make(state.ready, &state.case, &trial, budget, &mut state.seen, &mut of_trial);
+        findings.extend(state.compared.add(&trial, state.ready.lab, of_trial));
+        match made {
             Ok(attempt) => {
                 *left = left.saturating_sub(attempt.spent);
                 count(state, &trial, attempt, left);
@@ -275,18 +298,25 @@ fn seconds(t: f64) -> String {
 /// The lab as loaded, then with each control at its ends.
 fn trials(lab: &Lab, requested: f64) -> Vec<Trial<'_>> {
     let alone = |action| Interaction { kind: InteractionKind::End, actions: vec![action] };
+    let comparison = lab.comparison.as_ref();
+    let of_integrator = |name: &str| format!("with the integrator {name}");
+    let first = comparison.and_then(|comparison| comparison.integrators.first());
     let mut trials = vec![Trial {
         interaction: interactions::nothing(),
         length: requested,
-        done: "as it stands".into(),
+        done: first.map_or("as it stands".into(), |name| of_integrator(name)),
         control: None,
         moved: None,
     }];
     for (index, control) in lab.controls.iter().enumerate() {
         let label = &control.label.value;
         let mut set = |value: Value| {
+            let compares = comparison.is_some_and(|comparison| comparison.control == index);
             trials.push(Trial {
-                done: format!("with \"{label}\" at {value}"),
+                done: match &value {
+                    Value::String(name) if compares => of_integrator(name),
+                    value => format!("with \"{label}\" at {value}"),
+                },
                 length: requested,
                 interaction: alone(Action { time: 0.0, control: index, value: Some(value.clone()) }),
                 control: Some(control),

@@ -2,7 +2,7 @@
 
 use super::describe::{default, takes};
 use super::scan::{CursorSpot, JsonScan, JsonScope, ScanStep, scan};
-use super::{Family, Key, LAB, Named, Object, QUIZ, Together, Type, Word};
+use super::{Family, INTEGRATORS, Key, LAB, Named, Object, QUIZ, Together, Type, Word};
 use crate::json::encode;
 use std::borrow::Cow;
 use std::ops::Range;
@@ -128,7 +128,9 @@ fn root(scope: &JsonScope) -> Holder {
         let other = if object.name == LAB.name { &QUIZ } else { &LAB };
         scope.keys.iter().any(|(name, _)| object.key(name).is_some() && other.key(name).is_none())
     };
+    let compares = scope.keys.iter().any(|(name, _)| name == "integrators");
     let objects: &[&'static Object] = match (has(&LAB), has(&QUIZ)) {
+        _ if compares => &[&INTEGRATORS],
         (_, true) => &[&QUIZ],
         (true, false) => &[&LAB],
         (false, false) => &[&LAB, &QUIZ],

@@ -1,7 +1,7 @@
 //! Completions in a lesson, from the JSON of its blocks.
 
 use super::complete::completions_of;
-use super::{Completion, RequestedNames, VERIFY, completions};
+use super::{Completion, INTEGRATORS, RequestedNames, VERIFY, completions};
 use crate::markdown::{self, Block, BlockKind};
 use crate::source::SourceFile;
 use crate::spec::{FileKind, comment, kind_of};
@@ -23,7 +23,7 @@ pub fn completions_in(
         matches!(block.kind, BlockKind::Lab(_) | BlockKind::Quiz) && (span.start..=span.end).contains(&offset)
     };
     let scan = markdown::scan(file);
-    let Some(Block { body, .. }) = scan.blocks.iter().find(holds) else {
+    let Some(Block { body, kind, .. }) = scan.blocks.iter().find(holds) else {
         let Some(claim) = comment::claim_at(file.text(), &scan, offset) else { return Vec::new() };
         let inside = file.slice(claim.clone());
         let found = completions_of(Some(&VERIFY), inside, offset - claim.start, names).into_iter();
@@ -41,7 +41,8 @@ pub fn completions_in(
             here.end = middle;
         }
     }
-    let found = completions(&body.value, here.start, names).into_iter();
+    let whole = matches!(kind, BlockKind::Lab(name) if name == "integrators").then_some(&INTEGRATORS);
+    let found = completions_of(whole, &body.value, here.start, names).into_iter();
     let whole = found.filter(|c| body.map.is_unbroken(c.replace.clone()));
     whole.map(|c| Completion { replace: body.map.span(c.replace), ..c }).collect()
 }

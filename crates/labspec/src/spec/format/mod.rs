@@ -10,6 +10,7 @@ mod complete_tests;
 mod control;
 mod describe;
 mod in_lesson;
+mod integrators;
 mod lab;
 mod lint;
 mod page;
@@ -24,6 +25,7 @@ mod verify;
 pub use complete::{Completion, RequestedNames, completions};
 pub use control::{BUTTON, CONTROL, SELECT, SLIDER};
 pub use in_lesson::completions_in;
+pub use integrators::{INTEGRATOR_NAMES, INTEGRATORS};
 pub use lab::{CAMERA, EVENTS, LAB, OVERLAYS};
 pub use lint::LINT;
 pub use page::page;
@@ -296,8 +298,9 @@ impl Key {
 }
 
 /// All objects, in the order of the reference page.
-pub static OBJECTS: [&Object; 26] = [
+pub static OBJECTS: [&Object; 27] = [
     &LAB,
+    &INTEGRATORS,
     &CAMERA,
     &SLIDER,
     &SELECT,

@@ -2,7 +2,7 @@
 
 use super::describe::{default, number};
 use super::{CONTROL, QUESTION};
-use super::{Family, Key, LAB, Limits, OBJECTS, Object, PairHalf, QUIZ, Together, Type};
+use super::{Family, INTEGRATORS, Key, LAB, Limits, OBJECTS, Object, PairHalf, QUIZ, Together, Type};
 use crate::json::to_value;
 use serde::{Serialize, Serializer};
 use serde_json::{Map, Value};
@@ -12,6 +12,8 @@ use serde_json::{Map, Value};
 pub enum Root {
     /// A lab.
     Lab,
+    /// A lab that compares integrators.
+    Integrators,
     /// A quiz.
     Quiz,
     /// A JSON file of a course: a lab, a quiz, or a list of them.
@@ -97,20 +99,23 @@ impl Serialize for NamedSchemas {
 /// The schema, as JSON. What it rejects is an error of `labspec check`. A condition that needs the model or several values
 /// at once is found only by the check.
 pub fn schema(root: Root) -> Value {
-    let item = || when(required(&["questions"]), reference(QUIZ.name), reference(LAB.name));
+    let lab = || when(required(&["integrators"]), reference(INTEGRATORS.name), reference(LAB.name));
+    let item = || when(required(&["questions"]), reference(QUIZ.name), lab());
     let list = || SchemaNode::from(SchemaKeyword::Items(item()));
     let (title, description, body) = match root {
         Root::Lab => ("Lab", LAB.doc, reference(LAB.name)),
+        Root::Integrators => ("Integrators lab", INTEGRATORS.doc, reference(INTEGRATORS.name)),
         Root::Quiz => ("Quiz", QUIZ.doc, reference(QUIZ.name)),
         Root::Lesson => ("Lesson", "A lab, a quiz, or a list of them.", when(typed("array"), list(), item())),
     };
+    let roots: &[&'static Object] = match root {
+        Root::Lab => &[&LAB],
+        Root::Integrators => &[&INTEGRATORS],
+        Root::Quiz => &[&QUIZ],
+        Root::Lesson => &[&LAB, &INTEGRATORS, &QUIZ],
+    };
     let mut used = Vec::new();
-    if root != Root::Quiz {
-        reach(&LAB, &mut used);
-    }
-    if root != Root::Lab {
-        reach(&QUIZ, &mut used);
-    }
+    roots.iter().for_each(|object| reach(object, &mut used));
     let families = [&CONTROL, &QUESTION].into_iter();
     let families = families.filter(|f| f.objects.iter().any(|o| used.contains(&o.name)));
     let objects = OBJECTS.iter().filter(|o| used.contains(&o.name));

@@ -56,7 +56,7 @@ fn roots(object: &'static Object, value: &Value) -> Vec<(&'static Object, Value)
     let (mut open, mut all) = (vec![(object, value.clone())], Vec::new());
     let mut seen = BTreeSet::new();
     while let Some((object, value)) = open.pop() {
-        if [LAB.name, QUIZ.name].contains(&object.name) {
+        if [LAB.name, INTEGRATORS.name, QUIZ.name].contains(&object.name) {
             all.push((object, value));
             continue;
         }
@@ -76,7 +76,11 @@ fn roots(object: &'static Object, value: &Value) -> Vec<(&'static Object, Value)
 
 /// A lesson with prose, the scene, and a lab or a quiz.
 fn lesson_text(object: &Object, value: &Value) -> String {
-    let fence = if object.name == LAB.name { "lab simlab" } else { "quiz" };
+    let fence = match object.name {
+        name if name == LAB.name => "lab simlab",
+        name if name == INTEGRATORS.name => "lab integrators",
+        _ => "quiz",
+    };
     format!(
         "After 1 s the ball falls with 9.81 m/s.\n\n```lab simlab\n{SCENE}\n```\n\n```{fence}\n{value}\n```\n"
     )
