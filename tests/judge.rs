@@ -78,7 +78,7 @@ fn every_measure_of_the_course_agrees_with_mujoco() {
     let recorded = recording("judge");
     let runs = recorded["runs"].as_array().unwrap();
     let count: usize = runs.iter().map(|r| r["values"].as_object().unwrap().len()).sum();
-    assert!(runs.len() >= 143 && count >= 795, "{} runs, {count} measures", runs.len());
+    assert!(runs.len() >= 147 && count >= 815, "{} runs, {count} measures", runs.len());
     let arguments = ["verify", "specs/lessons", "--judge", "tests/golden/judge.json", "--format", "json"];
     let done = run_in(&workspace(), &arguments);
     let report: Value = serde_json::from_str(&done.stdout).unwrap();
