@@ -43,9 +43,9 @@
 //! form. The monitor stops if anything else can supply energy (other actuators, applied forces, wind, moving surfaces,
 //! other dampers with negative coefficients), because a false alarm is worse than a missed report.
 
-use super::stability;
+use super::{slides, stability};
 use labspec_core::math::{MINVAL, norm, rows};
-use labspec_core::{Data, Energy, Fields, Model, Plan, Planned, Scope, disable, joint};
+use labspec_core::{Data, Energy, Fields, Model, Plan, Planned, Scope, disable};
 use labspec_core::{copy_poses, energy_of_poses, exhausted, forward, limit, mass_matrix, mechanical_energy};
 use labspec_core::{mul_m, steps_compute_poses, work_left};
 
@@ -330,19 +330,16 @@ fn compare(
     w.found
 }
 
-/// The largest rotation in one step, rad.
+/// The largest rotation of a joint in one step, rad.
 fn largest_rotation(m: &Model, d: &Fields) -> f64 {
-    let of = |j: usize| {
-        let first = m.jnt_dofadr[j] as usize;
-        let dofs = match m.jnt_type[j] {
-            joint::HINGE => first..first + 1,
-            joint::BALL => first..first + 3,
-            joint::FREE => first + 3..first + 6,
-            _ => first..first,
-        };
-        dofs.filter_map(|k| d.qvel.get(k)).map(|v| v * v).sum::<f64>().sqrt()
+    let mut first = 0;
+    let of_joint = |dofs: &[i32]| {
+        let dofs = std::mem::replace(&mut first, first + dofs.len())..first;
+        dofs.filter(|&dof| !slides(m, dof)).map(|dof| d.qvel[dof] * d.qvel[dof]).sum::<f64>()
     };
-    m.opt.timestep * (0..m.njnt).map(of).fold(0.0, f64::max)
+    // The degrees of freedom of a joint follow each other.
+    let joints = m.dof_jntid.chunk_by(|a, b| a == b);
+    m.opt.timestep * joints.map(of_joint).fold(0.0, f64::max).sqrt()
 }
 
 /// The degree of freedom whose negative damping supplies the most power.

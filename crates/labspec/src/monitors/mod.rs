@@ -8,3 +8,16 @@ pub mod sunk;
 pub mod through;
 pub mod unsolved;
 pub mod watch;
+
+use labspec_core::{Model, joint};
+
+/// Whether a degree of freedom is a translation.
+pub(crate) fn slides(m: &Model, dof: usize) -> bool {
+    let Some(&j) = m.dof_jntid.get(dof) else { return true };
+    let first = m.jnt_dofadr.get(j as usize).map_or(0, |&a| a as usize);
+    match m.jnt_type.get(j as usize) {
+        Some(&joint::SLIDE) => true,
+        Some(&joint::FREE) => dof < first + 3,
+        _ => false,
+    }
+}

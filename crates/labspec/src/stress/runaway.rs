@@ -10,8 +10,9 @@ use super::bodies::joint_of_dof;
 use super::causes::stiffness_cause;
 use super::fault::{Fault, FaultEvidence, FaultKind};
 use super::history::RunHistory;
+use crate::monitors::slides;
 use labspec_core::math::norm;
-use labspec_core::{Fields, Model, joint};
+use labspec_core::{Fields, Model};
 
 const FAR_FACTOR: f64 = 100.0;
 const SPEED_FACTOR: f64 = 10.0;
@@ -134,15 +135,4 @@ fn largest_speed(d: &Fields, dofs: &[usize]) -> (f64, usize) {
         }
     }
     largest
-}
-
-/// Whether a degree of freedom is a translation.
-fn slides(m: &Model, dof: usize) -> bool {
-    let Some(&j) = m.dof_jntid.get(dof) else { return true };
-    let first = m.jnt_dofadr.get(j as usize).map_or(0, |&a| a as usize);
-    match m.jnt_type.get(j as usize) {
-        Some(&joint::SLIDE) => true,
-        Some(&joint::FREE) => dof < first + 3,
-        _ => false,
-    }
 }
