@@ -334,8 +334,9 @@ fn compare(
 fn largest_rotation(m: &Model, d: &Fields) -> f64 {
     let mut first = 0;
     let of_joint = |dofs: &[i32]| {
-        let dofs = std::mem::replace(&mut first, first + dofs.len())..first;
-        dofs.filter(|&dof| !slides(m, dof)).map(|dof| d.qvel[dof] * d.qvel[dof]).sum::<f64>()
+        let start = first;
+        first += dofs.len();
+        (start..first).filter(|&dof| !slides(m, dof)).map(|dof| d.qvel[dof] * d.qvel[dof]).sum::<f64>()
     };
     // The degrees of freedom of a joint follow each other.
     let joints = m.dof_jntid.chunk_by(|a, b| a == b);
