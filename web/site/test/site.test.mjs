@@ -63,7 +63,7 @@ test("every lesson opens without a word on the console, and its labs run", async
     }
     assert.equal(await page.locator(".math:not([data-tex])").count(), 0);
   }
-  assert.equal(labs, 18);
+  assert.equal(labs, 19);
   none();
 });
 
