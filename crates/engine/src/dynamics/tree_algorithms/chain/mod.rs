@@ -107,6 +107,8 @@ pub(super) struct LinkParameters {
     /// Centre of mass, and the inertia about it: xx yy zz xy xz yz.
     pub(super) com: Vec3,
     inertia: [f64; 6],
+    /// Whether the link has neither mass nor inertia, as all but the last joint of a body: its forces are zero.
+    massless: bool,
 }
 
 impl LinkParameters {
@@ -251,6 +253,9 @@ impl Trees {
             let [xx, yy, zz, xy, xz, yz, ..] =
                 inertia_about(moments[b], &axes, sub(com(part), f.com), m.body_mass[b]);
             f.inertia = add(f.inertia, [xx, yy, zz, xy, xz, yz]);
+        }
+        for link in &mut self.links {
+            link.fixed.massless = link.fixed.mass == 0.0 && link.fixed.inertia == [0.0; 6];
         }
         let mut rest = self.links.as_mut_slice();
         for &n in &self.lengths {

@@ -150,6 +150,9 @@ pub(super) fn mass_matrix<const N: usize>(chain: &mut [ChainLink], qpos: &[f64],
         rows[i][i] = fixed.armature;
     }
     for i in 0..n {
+        if chain[i].fixed.massless {
+            continue;
+        }
         let (mass, inertia, com) = (chain[i].fixed.mass, chain[i].flat.inertia, swings[i].com);
         let columns: [Vec2; MAX_DOFS] =
             std::array::from_fn(
@@ -213,6 +216,9 @@ pub(super) fn bias<const N: usize>(
             }
         }
         turning += flat.sense * v[i];
+        if fixed.massless {
+            continue;
+        }
         let centripetal = turning * turning;
         let force = [
             fixed.mass * (acceleration[0] - centripetal * (swing.com[0] - swing.anchor[0])),

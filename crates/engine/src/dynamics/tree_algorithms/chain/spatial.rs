@@ -19,6 +19,9 @@ pub(super) fn mass_matrix<const N: usize>(chain: &mut [ChainLink], qpos: &[f64],
         rows[i][i] = chain[i].fixed.armature;
     }
     for i in 0..n {
+        if chain[i].fixed.massless {
+            continue;
+        }
         let pose = chain[i].pose;
         for k in 0..=i {
             let up = &chain[k];
@@ -101,6 +104,9 @@ pub(super) fn bias<const N: usize>(
         }
         if !slides {
             motion.velocity = add(motion.velocity, rate);
+        }
+        if fixed.massless {
+            continue;
         }
         let force = scale(motion.at(sub(pose.com, pose.anchor)), fixed.mass);
         let w = mat_t_mul_vec(&pose.axes, motion.velocity);
