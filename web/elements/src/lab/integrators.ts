@@ -19,8 +19,8 @@ const BASELINE = "mj.mj_forward(model, data); ctx.energyStart = lib.energy().tot
 /** The integrators of a lab: those of its list that exist, each once, or all. Empty for a lab that compares nothing. */
 export function comparedIntegrators(lab: Json): readonly string[] {
   if (!Array.isArray(lab["integrators"])) return [];
-  const known = listOf(lab["integrators"]).filter((name): name is string => INTEGRATORS.includes(name as string));
-  return known.length > 0 ? [...new Set(known)] : INTEGRATORS;
+  const listed = listOf(lab["integrators"]).filter((name): name is string => INTEGRATORS.includes(name as string));
+  return listed.length > 0 ? [...new Set(listed)] : INTEGRATORS;
 }
 
 /** The lab of one integrator. */
@@ -65,4 +65,3 @@ function joinPlot(plot: PlotSpec, names: readonly string[]): PlotSpec {
   const label = (trace: TraceSpec, name: string): string => (plot.traces.length === 1 ? name : `${trace.label}, ${name}`);
   return { ...plot, traces: plot.traces.flatMap((trace) => names.map((name) => ({ ...trace, label: label(trace, name) }))) };
 }
-
