@@ -153,6 +153,7 @@ pub(crate) fn bodies(d: &mut Fields, frames: &mut Frames) {
     let (mocap_pos, mocap_quat) = (rows::<3>(&d.mocap_pos), rows::<4>(&d.mocap_quat));
     let qpos = &d.qpos;
 
+    // Before the poses, so that these computations do not wait for each other.
     for joint in joints.iter_mut().filter(|joint| joint.kind == joint::HINGE) {
         joint.half = libm::sincos(0.5 * (qpos[joint.coordinate] - joint.reference));
     }
@@ -180,10 +181,9 @@ pub(crate) fn bodies(d: &mut Fields, frames: &mut Frames) {
                 let axis = along(&here.axes, joint.axis);
                 let anchor = if joint.central { here.at } else { here.at + along(&here.axes, joint.anchor) };
                 (*xanchor, *xaxis) = (vec3(anchor), vec3(axis));
-                let displacement = qpos[joint.coordinate] - joint.reference;
                 match joint.kind {
                     joint::SLIDE => {
-                        here.at += axis * displacement;
+                        here.at += axis * (qpos[joint.coordinate] - joint.reference);
                         continue;
                     }
                     joint::HINGE => {

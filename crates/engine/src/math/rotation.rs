@@ -7,11 +7,12 @@ use super::{EYE, IDENTITY, MINVAL, Mat3, Quat, Vec3, cross, dot, normalize, scal
 pub fn quat_normalize(q: Quat) -> Quat {
     let square = dot(q, q);
     // The square of a norm differs from 1 by twice as much as the norm.
-    if (square - 1.0).abs() <= 2.0 * MINVAL {
-        return q;
+    if (square - 1.0).abs() > 2.0 * MINVAL {
+        let n = square.sqrt();
+        if n < MINVAL { IDENTITY } else { scale(q, 1.0 / n) }
+    } else {
+        q
     }
-    let n = square.sqrt();
-    if n < MINVAL { IDENTITY } else { scale(q, 1.0 / n) }
 }
 
 /// Hamilton product.
