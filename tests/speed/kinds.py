@@ -126,7 +126,7 @@ def main():
         import labs
 
         def row(name, file):
-            cells = labs.measure(file, a.rounds, WHOLE.get(name))
+            cells = labs.measure(file, a.rounds, **WHOLE.get(name, {}))
             return [name, *cells[1:]] if cells else sys.exit(f"{name} does not run")
 
         lines = labs.table("kind", (row(name, file) for name, file in files.items()))

@@ -86,6 +86,7 @@ pub(crate) fn product(axes: &Axes, columns: &[Vec3; 3]) -> Axes {
 
 /// Rotates the columns of a matrix about a unit vector, given in the frame of the columns, by the angle with sine s
 /// and cosine c.
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn rotate_columns(m: &Mat3, axis: Vec3, s: f64, c: f64) -> Mat3 {
     matrix(&turned(&axes(m), axis, s, c))
 }

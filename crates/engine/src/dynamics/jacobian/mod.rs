@@ -25,7 +25,8 @@ pub(crate) fn dof_motion(m: &Model, d: &Fields, k: usize, point: Vec3) -> (Vec3,
     (axis, cross(axis, sub(point, rows::<3>(&d.xanchor)[j])))
 }
 
-/// out += Jᵀ f: the generalized force of a force at `point` and a torque on body `b`.
+/// out += Jᵀ f: the generalized force of a force at `point` and a torque on body `b`. A rotation about an axis through the
+/// anchor of its joint has the component along the axis of torque + arm × force.
 pub(crate) fn apply(
     m: &Model,
     d: &Fields,
@@ -35,9 +36,26 @@ pub(crate) fn apply(
     torque: Vec3,
     out: &mut [f64],
 ) {
-    for k in walk::moving(m, b) {
-        let (turn, move_) = dof_motion(m, d, k, point);
-        out[k] += dot(move_, force) + dot(turn, torque);
+    let mut last = last_dof(m, b);
+    while let Ok(dof) = usize::try_from(last) {
+        let j = m.dof_jntid[dof] as usize;
+        let first = m.jnt_dofadr[j] as usize;
+        let axis = rows::<3>(&d.xaxis)[j];
+        let moment = || add(torque, cross(sub(point, rows::<3>(&d.xanchor)[j]), force));
+        let add_at =
+            |out: &mut [f64], dof: usize, v: Vec3| out[dof..].iter_mut().zip(v).for_each(|(to, v)| *to += v);
+        match m.jnt_type[j] {
+            joint::SLIDE => out[dof] += dot(axis, force),
+            joint::HINGE => out[dof] += dot(axis, moment()),
+            kind => {
+                if kind == joint::FREE {
+                    add_at(out, first, force);
+                }
+                // The axes of rotation of ball and free joints are those of the body.
+                add_at(out, dof - 2, mat_t_mul_vec(&rows::<9>(&d.xmat)[m.jnt_bodyid[j] as usize], moment()));
+            }
+        }
+        last = m.dof_parentid[first];
     }
 }
 

@@ -10,9 +10,16 @@ pub(super) fn mass_matrix<const N: usize>(chain: &mut [ChainLink], qpos: &[f64],
     let Some(chain) = chain.get_mut(..n) else {
         return broken_invariant("a chain is as long as its length");
     };
-    for i in 0..n {
-        let parent = i.checked_sub(1).map(|p| chain[p].pose);
-        chain[i].forward_kinematics(parent.as_ref(), qpos[chain[i].coordinate]);
+    // All displacements before the poses, so that the sines do not wait for them.
+    let mut displacements = [(0.0, 0.0); MAX_DOFS];
+    for (link, displacement) in chain.iter().zip(&mut displacements) {
+        let q = qpos[link.coordinate] - link.fixed.reference;
+        *displacement = if link.slides { (q, 0.0) } else { libm::sincos(q) };
+    }
+    let mut parent = None;
+    for (link, displacement) in chain.iter_mut().zip(displacements) {
+        link.pose = link.forward_kinematics(parent.as_ref(), displacement);
+        parent = Some(link.pose);
     }
     let mut rows = [[0.0; MAX_DOFS]; MAX_DOFS];
     for i in 0..n {
@@ -49,26 +56,25 @@ pub(super) fn mass_matrix<const N: usize>(chain: &mut [ChainLink], qpos: &[f64],
 }
 
 impl ChainLink {
-    /// Computes the pose for the coordinate q of the joint.
+    /// The pose for a displacement of the joint: the sine and cosine of an angle, or a distance and 0.
     #[cfg_attr(not(feature = "small"), inline(always))]
-    fn forward_kinematics(&mut self, parent: Option<&LinkPose>, q: f64) {
-        let (f, pose) = (&self.fixed, &mut self.pose);
-        match parent {
-            None => (pose.anchor, pose.axes) = (f.at, f.turn),
-            Some(p) => {
-                pose.anchor = add(mat_mul_vec(&p.axes, f.at), p.anchor);
-                pose.axes = if f.straight { p.axes } else { mat_mul(&p.axes, &f.turn) };
-            }
-        }
-        pose.axis = mat_mul_vec(&pose.axes, f.axis);
-        let displacement = q - f.reference;
+    fn forward_kinematics(&self, parent: Option<&LinkPose>, displacement: (f64, f64)) -> LinkPose {
+        let f = &self.fixed;
+        let (mut anchor, mut axes) = match parent {
+            None => (f.at, f.turn),
+            Some(p) => (
+                add(mat_mul_vec(&p.axes, f.at), p.anchor),
+                if f.straight { p.axes } else { mat_mul(&p.axes, &f.turn) },
+            ),
+        };
+        let axis = mat_mul_vec(&axes, f.axis);
+        let (s, c) = displacement;
         if self.slides {
-            pose.anchor = add_scaled(pose.anchor, pose.axis, displacement);
+            anchor = add_scaled(anchor, axis, s);
         } else {
-            let (s, c) = libm::sincos(displacement);
-            pose.axes = rotate_columns(&pose.axes, f.axis, s, c);
+            axes = rotate_columns(&axes, f.axis, s, c);
         }
-        pose.com = add(mat_mul_vec(&pose.axes, f.com), pose.anchor);
+        LinkPose { anchor, axes, axis, com: add(mat_mul_vec(&axes, f.com), anchor) }
     }
 }
 
