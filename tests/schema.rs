@@ -8,7 +8,7 @@ use crate::support::schema::problems;
 use crate::support::workspace;
 use labspec::lint::ModelFolder;
 use labspec::lint::load_lesson;
-use labspec::markdown::{self, BlockKind};
+use labspec::markdown::{self, BlockKind, LabKind};
 use labspec::source::SourceFile;
 use labspec::spec::format::{OBJECTS, Root, schema};
 use serde_json::{Value, json};
@@ -42,8 +42,8 @@ fn objects(path: &Path) -> Vec<(Root, Value, bool)> {
     let mut all = Vec::new();
     for block in markdown::scan(&lesson.file).blocks {
         let root = match &block.kind {
-            BlockKind::Lab(kind) if kind == "simlab" => Root::Lab,
-            BlockKind::Lab(kind) if kind == "integrators" => Root::Integrators,
+            BlockKind::Lab(LabKind::Simulation) => Root::Lab,
+            BlockKind::Lab(LabKind::Comparison) => Root::Integrators,
             BlockKind::Quiz => Root::Quiz,
             _ => continue,
         };

@@ -10,11 +10,12 @@ use super::stdio::stream;
 use super::target::LabTarget;
 use clap::ValueEnum;
 use labspec::report::{printable, printable_path};
-use labspec::run::{Cell, RunOptions, Table, rounded};
+use labspec::run::{Cell, RunOptions, Table, final_values, rounded};
 use labspec::spec::Lab;
 use labspec::stress::{self, ComparedRun};
 use labspec_plot::line_chart;
 use labspec_site::chart;
+use std::borrow::Cow;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -127,7 +128,7 @@ fn describe_run(lab: &Lab, compared: Option<&[ComparedRun]>, table: &Table) -> S
     let _ = writeln!(text, "{}, after {} s ({samples})", printable(title), rounded(time, 3));
     match compared {
         Some(runs) => text.push_str(&comparison_table(lab, runs)),
-        None => text.push_str(&final_values(lab, table)),
+        None => text.push_str(&last_lines(lab, table)),
     }
     for (name, n) in &table.warnings {
         let often = if *n == 1 { "once".to_string() } else { format!("{n} times") };
@@ -143,50 +144,24 @@ fn describe_run(lab: &Lab, compared: Option<&[ComparedRun]>, table: &Table) -> S
 }
 
 /// The traces and the readouts at the end of a run, one on each line.
-fn final_values(lab: &Lab, table: &Table) -> String {
-    let mut text = String::new();
-    let rows = final_cells(lab, table);
-    let width = rows.iter().map(|(label, _)| label.chars().count()).max().unwrap_or(0);
-    for (label, value) in rows {
-        let _ = writeln!(text, "  {label}{}  {value}", " ".repeat(width - label.chars().count()));
-    }
-    text
+fn last_lines(lab: &Lab, table: &Table) -> String {
+    let rows = final_values(lab, table).into_iter();
+    aligned(&rows.map(|last| vec![last.label.to_string(), last.value]).collect::<Vec<_>>())
 }
 
-/// The label and the last value of each trace and each readout.
-fn final_cells(lab: &Lab, table: &Table) -> Vec<(String, String)> {
-    let digits = |name: &str| {
-        let label = name.strip_prefix("readout/")?;
-        lab.readouts.iter().find(|r| r.label.value == label).map(|r| r.digits())
-    };
-    let last = table.rows.last().into_iter().flatten();
-    let named = table.columns.iter().zip(last).skip(1);
-    named
-        .map(|(name, cell)| {
-            let label = name.strip_prefix("readout/").or_else(|| name.splitn(3, '/').nth(2)).unwrap_or(name);
-            (printable(label).into_owned(), printable(&cell.rounded(digits(name).unwrap_or(4))).into_owned())
-        })
-        .collect()
-}
-
-/// The last values of the runs of a comparison, with a column for each integrator.
+/// The table of a comparison, with a column for each integrator.
 fn comparison_table(lab: &Lab, runs: &[ComparedRun]) -> String {
-    let mut rows: Vec<Vec<String>> = vec![vec![String::new()], vec!["largest energy drift".to_string()]];
-    for (i, run) in runs.iter().enumerate() {
-        let largest = rounded(stress::largest_drift(run), 4);
-        for (row, cell) in rows.iter_mut().zip([run.name.to_string(), largest]) {
-            row.push(cell);
-        }
-        for (k, (label, value)) in final_cells(lab, &run.table).into_iter().enumerate() {
-            if i == 0 {
-                rows.push(vec![label]);
-            }
-            if let Some(row) = rows.get_mut(k + 2) {
-                row.push(value);
-            }
-        }
-    }
-    let columns = runs.len() + 1;
+    let heads = std::iter::once(String::new()).chain(runs.iter().map(|run| run.name.to_string()));
+    let rows = stress::comparison_rows(lab, runs).into_iter();
+    let rows = rows.map(|row| std::iter::once(row.label.to_string()).chain(row.values).collect());
+    aligned(&std::iter::once(heads.collect()).chain(rows).collect::<Vec<_>>())
+}
+
+/// Rows of cells as lines of columns.
+fn aligned(rows: &[Vec<String>]) -> String {
+    let rows: Vec<Vec<Cow<'_, str>>> =
+        rows.iter().map(|row| row.iter().map(|cell| printable(cell)).collect()).collect();
+    let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
     let width = |column: usize| {
         let cells = rows.iter().filter_map(|row| row.get(column));
         cells.map(|cell| cell.chars().count()).max().unwrap_or(0)

@@ -6,7 +6,7 @@ use crate::models::{Delivery, ModelShelf};
 use crate::text::{escape, json_in_script, slug};
 use crate::twin::{lab_twin, quiz_twin};
 use crate::verified::short_hash;
-use labspec::markdown::{Block, BlockKind, LAB_KINDS};
+use labspec::markdown::{Block, BlockKind};
 use labspec::report::counted;
 use labspec::spec::{Comparison, Lab, Lesson, ModelSource, Quiz};
 use serde_json::Value;
@@ -86,7 +86,7 @@ impl FenceWriter<'_> {
         let is_broken =
             lesson.is_broken(&block.span) || lesson.broken.iter().any(|b| contains(&block.span, b));
         match &block.kind {
-            BlockKind::Lab(name) if LAB_KINDS.contains(&name.as_str()) => {
+            BlockKind::Lab(_) => {
                 let entry = lesson
                     .labs
                     .iter()
@@ -96,7 +96,7 @@ impl FenceWriter<'_> {
                     None => broken(block, "This lab cannot be read"),
                 }
             }
-            BlockKind::Lab(name) => widget(block, name),
+            BlockKind::Widget(name) => widget(block, name),
             BlockKind::Quiz => match lesson.quizzes.iter().find(|quiz| contains(&block.span, &quiz.span)) {
                 Some(quiz) if !is_broken => self.quiz(block, quiz, addresses),
                 _ => broken(block, "This quiz cannot be read"),

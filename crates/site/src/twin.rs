@@ -8,9 +8,9 @@ use labspec::bind::scene::Models;
 use labspec::check;
 use labspec::finding::Finding;
 use labspec::json::Scalar;
-use labspec::run::{Cell, RunOptions, Table, rounded};
+use labspec::run::{Cell, RunOptions, Table, final_values, rounded};
 use labspec::spec::{ControlKind, Lab, Plot, Question, QuestionKind, Quiz};
-use labspec::stress::{ComparedRun, compared_runs, join_runs, largest_drift, watched_run};
+use labspec::stress::{ComparedRun, compared_runs, comparison_rows, join_runs, watched_run};
 use labspec_plot::{Chart, Series, line_chart};
 use std::fmt::Write;
 
@@ -90,16 +90,14 @@ fn run_lab(lab: &Lab, models: Option<&Models>) -> Result<LabRuns, String> {
 }
 
 fn results(lab: &Lab, table: &Table) -> String {
-    let Some(last) = table.rows.last() else { return String::new() };
+    if table.rows.is_empty() {
+        return String::new();
+    }
     let mut out = setting_line(lab, table);
-    let readouts = lab.readouts.iter().filter_map(|readout| {
-        let name = format!("readout/{}", readout.label.value);
-        let column = table.columns.iter().position(|c| *c == name)?;
-        Some((readout.label.as_str(), last.get(column)?.rounded(readout.digits())))
-    });
+    let readouts = final_values(lab, table).into_iter().filter(|last| !last.is_trace);
     let rows: String = readouts
-        .map(|(label, value)| {
-            format!("<div><dt>{}</dt><dd>{}</dd></div>", escape(label), escape(&with_minus(&value)))
+        .map(|last| {
+            format!("<div><dt>{}</dt><dd>{}</dd></div>", escape(last.label), escape(&with_minus(&last.value)))
         })
         .collect();
     if !rows.is_empty() {
@@ -115,22 +113,11 @@ fn comparison(lab: &Lab, runs: &[ComparedRun]) -> String {
     let mut out = setting_line(lab, &table);
     let heads: String =
         runs.iter().map(|run| format!("<th scope=\"col\">{}</th>", escape(run.name))).collect();
-    let largest = runs.iter().map(|run| rounded(largest_drift(run), 4)).collect();
-    let mut rows: Vec<(&str, Vec<String>)> = vec![("largest energy drift", largest)];
-    for readout in &lab.readouts {
-        let name = format!("readout/{}", readout.label.value);
-        let value = |run: &ComparedRun| {
-            let column = run.table.columns.iter().position(|c| *c == name);
-            let last = run.table.rows.last().zip(column).and_then(|(row, column)| row.get(column));
-            last.unwrap_or(&Cell::Nothing).rounded(readout.digits())
-        };
-        rows.push((readout.label.as_str(), runs.iter().map(value).collect()));
-    }
     let _ = write!(out, "<table class=\"comparison\"><thead><tr><td></td>{heads}</tr></thead><tbody>");
-    for (label, values) in rows {
+    for row in comparison_rows(lab, runs).into_iter().filter(|row| !row.is_trace) {
         let cells: String =
-            values.iter().map(|value| format!("<td>{}</td>", escape(&with_minus(value)))).collect();
-        let _ = write!(out, "<tr><th scope=\"row\">{}</th>{cells}</tr>", escape(label));
+            row.values.iter().map(|value| format!("<td>{}</td>", escape(&with_minus(value)))).collect();
+        let _ = write!(out, "<tr><th scope=\"row\">{}</th>{cells}</tr>", escape(row.label));
     }
     out.push_str("</tbody></table>");
     out.push_str(&plots(&joined, &table));

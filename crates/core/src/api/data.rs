@@ -309,7 +309,8 @@ impl<S: Scope> Data<S> {
     }
 
     fn missing_fields(&self, fields: &[FieldId]) -> Result<(), Error> {
-        fields.iter().try_for_each(|field| self.read(*field).map(|_| ()))
+        let all_read = |field: &FieldId| self.access.reads.contains_whole(*field, usize::MAX);
+        fields.iter().filter(|f| !all_read(f)).try_for_each(|field| self.read(*field).map(|_| ()))
     }
 }
 

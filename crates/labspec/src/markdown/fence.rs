@@ -2,7 +2,7 @@
 
 use super::loose::bare_json;
 use super::opener::{Opener, opener};
-use super::{BlockKind, LAB_KINDS, extent};
+use super::{BlockKind, LabKind, extent};
 use labspec_finding::nearest;
 use std::ops::Range;
 
@@ -34,12 +34,13 @@ fn joined_or_plural(language: &str) -> Option<&'static str> {
 
 /// The intended kind of a misspelt fence, and its spelling.
 pub(super) fn meant(open: &Opener, kind: &BlockKind, body: &str) -> Option<(&'static str, BlockKind)> {
-    let lab = ("lab simlab", BlockKind::Lab("simlab".into()));
+    let lab_of = |kind: LabKind| (kind.fence(), BlockKind::Lab(kind));
+    let lab = lab_of(LabKind::Simulation);
     let quiz = ("quiz", BlockKind::Quiz);
     match kind {
-        BlockKind::Lab(widget) if !LAB_KINDS.contains(&widget.as_str()) => match nearest(widget, LAB_KINDS) {
-            Some("integrators") => Some(("lab integrators", BlockKind::Lab("integrators".into()))),
-            near => (widget.starts_with('{') || near.is_some()).then_some(lab),
+        BlockKind::Widget(name) => match nearest(name, LabKind::ALL.map(LabKind::word)) {
+            Some(word) => LabKind::named(word).map(lab_of),
+            None => name.starts_with('{').then_some(lab),
         },
         BlockKind::Code { language, .. } => {
             let holds_json = body.trim_start().starts_with(['{', '[']);

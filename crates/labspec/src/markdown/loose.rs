@@ -2,7 +2,7 @@
 
 use super::Problem;
 use super::opener::opener;
-use super::{Block, BlockKind, Scan, extent, line_start};
+use super::{Block, BlockKind, LabKind, Scan, extent, line_start};
 use crate::source::{SourceMap, Text};
 use std::ops::Range;
 
@@ -82,7 +82,7 @@ pub(super) fn find(text: &str, scan: &mut Scan) {
         let Some(part) = text.get(range.clone()) else { continue };
         for bare in bare_json(part) {
             let object = bare.object.start + range.start..bare.object.end + range.start;
-            let kind = if bare.is_quiz { BlockKind::Quiz } else { BlockKind::Lab("simlab".into()) };
+            let kind = if bare.is_quiz { BlockKind::Quiz } else { BlockKind::Lab(LabKind::Simulation) };
             scan.problems.push(Problem::Missing { object: object.clone(), kind: kind.clone() });
             let head = object.start..object.start + 1;
             scan.blocks.push(loose_block(text, kind, object.clone(), head, object));

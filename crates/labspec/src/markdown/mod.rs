@@ -28,14 +28,48 @@ const MAX_REREAD: usize = 64 << 20;
 /// Maximum number of markup characters in a lesson: the Markdown parser stores about sixty bytes for each.
 pub(crate) const MAX_MARKUP: usize = 4 << 20;
 
-/// The kinds of labs, as the word after `lab` names them: a lab, and a lab that compares integrators.
-pub const LAB_KINDS: [&str; 2] = ["simlab", "integrators"];
+/// The kinds of labs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LabKind {
+    /// A run of a model.
+    Simulation,
+    /// The same run under several integrators.
+    Comparison,
+}
+
+impl LabKind {
+    /// All kinds.
+    pub const ALL: [LabKind; 2] = [LabKind::Simulation, LabKind::Comparison];
+
+    /// The word after `lab` in a fence.
+    pub const fn word(self) -> &'static str {
+        match self {
+            LabKind::Simulation => "simlab",
+            LabKind::Comparison => "integrators",
+        }
+    }
+
+    /// The opening words of a fence.
+    pub const fn fence(self) -> &'static str {
+        match self {
+            LabKind::Simulation => "lab simlab",
+            LabKind::Comparison => "lab integrators",
+        }
+    }
+
+    /// The kind that a word names.
+    pub fn named(word: &str) -> Option<LabKind> {
+        LabKind::ALL.into_iter().find(|kind| kind.word() == word)
+    }
+}
 
 /// The content of a fence.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum BlockKind {
-    /// A lab, with the name of its widget; those of labspec are the [`LAB_KINDS`].
-    Lab(String),
+    /// A lab.
+    Lab(LabKind),
+    /// A widget of another tool: `lab` and its name.
+    Widget(String),
     /// A quiz.
     Quiz,
     /// A listing.
@@ -335,7 +369,7 @@ mod tests {
         );
         assert!(matches!(scan.problems[..], [Problem::Unclosed { .. }]));
         let kinds: Vec<_> = scan.blocks.iter().map(|b| b.kind.clone()).collect();
-        let lab = BlockKind::Lab("simlab".into());
+        let lab = BlockKind::Lab(LabKind::Simulation);
         assert_eq!(kinds, [lab.clone(), BlockKind::Quiz, lab]);
         assert_eq!(scan.blocks[0].body.value.trim(), "{\"model\": \"a\"}");
     }

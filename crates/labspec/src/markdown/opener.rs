@@ -1,6 +1,6 @@
 //! The opening line of a fence: its marks, its words, and misplaced text.
 
-use super::{BlockKind, line_start};
+use super::{BlockKind, LabKind, line_start};
 use std::ops::Range;
 
 /// The opening line of a fence.
@@ -24,7 +24,12 @@ impl Opener {
     /// The content of the fence.
     pub(crate) fn kind(&self) -> BlockKind {
         match self.words.first().map(String::as_str) {
-            Some("lab") => BlockKind::Lab(self.words.get(1).cloned().unwrap_or_else(|| "simlab".into())),
+            Some("lab") => match self.words.get(1) {
+                None => BlockKind::Lab(LabKind::Simulation),
+                Some(word) => {
+                    LabKind::named(word).map_or_else(|| BlockKind::Widget(word.clone()), BlockKind::Lab)
+                }
+            },
             Some("quiz") => BlockKind::Quiz,
             first => BlockKind::Code {
                 language: first.unwrap_or("").to_string(),

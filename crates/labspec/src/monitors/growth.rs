@@ -46,8 +46,8 @@
 use super::{slides, stability};
 use labspec_core::math::{MINVAL, norm, rows};
 use labspec_core::{Data, Energy, Fields, Model, Plan, Planned, Scope, disable};
-use labspec_core::{copy_poses, energy_of_poses, exhausted, forward, limit, mass_matrix, mechanical_energy};
-use labspec_core::{mul_m, steps_compute_poses, work_left};
+use labspec_core::{copy_coordinates, copy_poses, energy_of_poses, exhausted, forward, limit, mass_matrix};
+use labspec_core::{mechanical_energy, mul_m, steps_compute_poses, work_left};
 
 /// Bounds of the factor by which the gain of one step must exceed the available energy: the usual value, and the largest
 /// value, which applies near the stability limit of a spring. `OSCILLATION_FACTOR` is the factor on the energy ratio of
@@ -169,7 +169,7 @@ pub fn restart<S: Scope>(w: &mut GrowthMonitor, m: &Model, d: &Data<S>) {
     to.mocap_pos.copy_from_slice(&from.mocap_pos);
     to.mocap_quat.copy_from_slice(&from.mocap_quat);
     to.eq_active.copy_from_slice(&from.eq_active);
-    take(&mut w.copied, d);
+    take(&mut w.copied, m, d);
     limit(&mut w.copied, work_left(d));
     if forward(m, &mut w.copied).is_ok() && !exhausted(&w.copied) {
         let energy = mechanical_energy(m, &mut w.copied).ok().flatten();
@@ -243,7 +243,7 @@ fn evaluate<S: Scope>(w: &mut GrowthMonitor, m: &Model, d: &Data<S>, start: Star
         restart(w, m, d);
         return None;
     }
-    take(&mut w.copied, d);
+    take(&mut w.copied, m, d);
     if w.poses_of_steps {
         w.pending = true;
         return None;
@@ -350,12 +350,10 @@ fn dof_of_negative_damping(m: &Model, d: &Fields) -> Option<usize> {
     pushing.max_by(|a, b| power(a).total_cmp(&power(b)))
 }
 
-/// Copies the state of a run.
-fn take<S: Scope>(copied: &mut Data<Planned>, d: &Data<S>) {
-    let (to, from) = (copied.edit(), d.fields());
-    to.qpos.copy_from_slice(&from.qpos);
-    to.qvel.copy_from_slice(&from.qvel);
-    *to.time = from.time;
+/// Copies the positions and velocities of a run.
+fn take<S: Scope>(copied: &mut Data<Planned>, m: &Model, d: &Data<S>) {
+    let copied = copy_coordinates(m, copied, d);
+    debug_assert!(copied.is_ok(), "both data belong to the model");
 }
 
 /// The initial energies: kinetic energy, elastic energy, and the energy stored in violated constraints.

@@ -1,6 +1,6 @@
 use crate::monitors::stability;
 use crate::run;
-use labspec_core::Model;
+use labspec_core::{AccessSet, Model};
 use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 use std::ops::Range;
 
@@ -20,7 +20,12 @@ pub const STIFF_FOR_TIMESTEP: &Rule = &Rule {
 };
 
 /// Reports the part of a scene that is unstable at this timestep, although no run diverged.
-pub(crate) fn check_stiffness(model: &Model, place: Range<usize>, covered: &str) -> Option<Finding> {
+pub(crate) fn check_stiffness(
+    model: &Model,
+    access: &AccessSet,
+    place: Range<usize>,
+    covered: &str,
+) -> Option<Finding> {
     let worst = stability::unstable_parts(model).into_iter().next()?;
     let [owner, how] = [run::owner(model, &worst), run::how_stiff(&worst)];
     Some(
@@ -31,7 +36,7 @@ pub(crate) fn check_stiffness(model: &Model, place: Range<usize>, covered: &str)
             .help(format!(
                 "set the timestep to {} s, or {}",
                 run::two_digits(0.9 * worst.timestep.min(model.opt.timestep)),
-                run::attribute_to_soften(&worst)
+                run::attribute_to_soften(&worst, access)
             )),
     )
 }

@@ -1,9 +1,11 @@
 //! Breakdowns of a run, described for teachers: what broke, when, the likely cause, and a suggestion.
 
 use super::cell::rounded;
+use super::session::Session;
 use crate::monitors::stability::{self, StiffPart, UnstablePart};
 use crate::rules::Rule;
-use labspec_core::{Model, Obj};
+use labspec_core::reflect::option;
+use labspec_core::{AccessSet, Model, Obj};
 
 /// A breakdown of a run, reported by the engine or silent, described for teachers.
 #[derive(Clone, Debug, PartialEq)]
@@ -90,8 +92,9 @@ impl BreakdownAdvice {
         BreakdownAdvice { cause: None, shorter: ShorterTimestep::Maybe(None), instead: instead.into() }
     }
 
-    /// The advice that follows from the stiffest part of a model.
-    pub(super) fn by_stiffness(model: &Model) -> BreakdownAdvice {
+    /// The advice that follows from the stiffest part of the model of a session.
+    pub(super) fn by_stiffness(session: &Session<'_>) -> BreakdownAdvice {
+        let model = &session.world.model;
         let Some(worst) = stability::unstable_parts(model).into_iter().next() else {
             return BreakdownAdvice::shorter("softer contacts or springs, or a smaller range of the control");
         };
@@ -103,7 +106,7 @@ impl BreakdownAdvice {
                 model.opt.timestep
             )),
             shorter: ShorterTimestep::Maybe(Some(0.9 * worst.timestep)),
-            instead: attribute_to_soften(&worst),
+            instead: attribute_to_soften(&worst, &session.programs.access),
         }
     }
 
@@ -141,15 +144,18 @@ pub fn how_stiff(s: &UnstablePart) -> String {
     }
 }
 
-/// The attribute to make softer.
-pub fn attribute_to_soften(s: &UnstablePart) -> String {
+/// The attribute to make softer, or the integrator to choose where no program sets it.
+pub fn attribute_to_soften(s: &UnstablePart, access: &AccessSet) -> String {
     let attribute = match (s.part, s.object) {
         (StiffPart::Servo, _) => "`kp` and `kv`",
         (StiffPart::Spring, _) => "`stiffness` and `damping`",
         (StiffPart::Limit, _) => "`solreflimit`",
         (StiffPart::Constraint, _) => "`solref`",
     };
-    format!("softer {attribute}, or `integrator=\"discrete\"`")
+    match access.writes.contains(option::integrator) {
+        true => format!("softer {attribute}"),
+        false => format!("softer {attribute}, or `integrator=\"discrete\"`"),
+    }
 }
 
 pub(super) fn joint_of(model: &Model, index: usize, adr: &[i32], width: fn(i32) -> usize) -> String {

@@ -4,7 +4,7 @@ use super::breakdown::{Breakdown, BreakdownAdvice, joint_of, time};
 use super::session::Session;
 use super::silent;
 use crate::rules;
-use labspec_core::{Model, Warning, WarningStat, joint};
+use labspec_core::{Warning, WarningStat, joint};
 
 const RESET: &str = "MuJoCo then resets the data and continues from time 0: a student sees the scene jump back without an explanation";
 
@@ -23,7 +23,7 @@ pub fn worst_breakdown(session: &Session<'_>) -> Option<Breakdown> {
 pub fn breakdowns_of(session: &Session<'_>) -> Vec<Breakdown> {
     let met = |w: &Warning| {
         let stat = session.warnings.get(*w as usize).filter(|stat| stat.number > 0)?;
-        Some(explain_warning(&session.world.model, *w, stat))
+        Some(explain_warning(session, *w, stat))
     };
     let first = |w: &Warning| session.warnings.get(*w as usize).filter(|stat| stat.number > 0);
     let mut since = RELATED_WARNINGS.iter().find_map(first).map_or(f64::INFINITY, |stat| stat.first_time);
@@ -32,7 +32,7 @@ pub fn breakdowns_of(session: &Session<'_>) -> Vec<Breakdown> {
         // A quantity that grows for a while becomes NaN or infinite in the end.
         if growth.time < since {
             since = growth.time;
-            let grows = silent::growth(&session.world.model, growth);
+            let grows = silent::growth(session, growth);
             let then = state.map_or(String::new(), |s| format!("; in the end {}", s.what));
             let what = format!("{}{then}", grows.what);
             state = Some(Breakdown { what, ..grows });
@@ -45,7 +45,8 @@ pub fn breakdowns_of(session: &Session<'_>) -> Vec<Breakdown> {
 }
 
 /// Describes a warning of the engine.
-fn explain_warning(model: &Model, warning: Warning, stat: &WarningStat) -> Breakdown {
+fn explain_warning(session: &Session<'_>, warning: Warning, stat: &WarningStat) -> Breakdown {
+    let model = &session.world.model;
     let joint = |adr: &[i32], width| joint_of(model, stat.lastinfo, adr, width);
     let at = format!("at t = {} s", time(stat.first_time));
     let no_number = |what: String| format!("{what} is not a number or exceeds 1e10 {at}");
@@ -54,19 +55,19 @@ fn explain_warning(model: &Model, warning: Warning, stat: &WarningStat) -> Break
             rules::SIMULATION_DIVERGES,
             no_number(format!("the position of {}", joint(&model.jnt_qposadr, joint::nq))),
             RESET,
-            BreakdownAdvice::by_stiffness(model),
+            BreakdownAdvice::by_stiffness(session),
         ),
         Warning::BadQvel => (
             rules::SIMULATION_DIVERGES,
             no_number(format!("the velocity of {}", joint(&model.jnt_dofadr, joint::nv))),
             RESET,
-            BreakdownAdvice::by_stiffness(model),
+            BreakdownAdvice::by_stiffness(session),
         ),
         Warning::BadQacc => (
             rules::SIMULATION_DIVERGES,
             no_number(format!("the acceleration of {}", joint(&model.jnt_dofadr, joint::nv))),
             RESET,
-            BreakdownAdvice::by_stiffness(model),
+            BreakdownAdvice::by_stiffness(session),
         ),
         Warning::BadCtrl => (
             rules::SIMULATION_DIVERGES,

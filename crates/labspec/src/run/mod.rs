@@ -32,7 +32,7 @@ pub use samples::Samples;
 pub use session::{Session, Start};
 pub use settings::{presses, presses_within, set_controls};
 pub use steady::is_steady;
-pub use table::Table;
+pub use table::{FinalValue, Table, final_values};
 pub use variant::StepVariant;
 
 use crate::bind::Programs;

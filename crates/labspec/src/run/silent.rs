@@ -1,6 +1,7 @@
 //! Silent faults of a run, described for teachers: what happens, the consequence, and a remedy.
 
 use super::breakdown::{Breakdown, BreakdownAdvice, joint_of, time, two_digits};
+use super::session::Session;
 use crate::monitors::growth::{Growth, Source};
 use crate::monitors::limits::ExceededLimit;
 use crate::monitors::sunk::SunkContact;
@@ -27,7 +28,8 @@ pub(super) fn first(model: &Model, noticed: &Observations) -> Option<(f64, Break
 }
 
 /// Energy that no force supplied, or that a damper supplies.
-pub(super) fn growth(model: &Model, g: Growth) -> Breakdown {
+pub(super) fn growth(session: &Session<'_>, g: Growth) -> Breakdown {
+    let model = &session.world.model;
     let numbers = format!(
         "energy grows from t = {} s on: {} J without a source, while the start had {} J; most of it moves {}",
         time(g.time),
@@ -37,7 +39,7 @@ pub(super) fn growth(model: &Model, g: Growth) -> Breakdown {
     );
     match g.source {
         Source::Steps => {
-            BreakdownAdvice::by_stiffness(model).breakdown(rules::ENERGY_GROWS, numbers, ENERGY_FROM_STEPS)
+            BreakdownAdvice::by_stiffness(session).breakdown(rules::ENERGY_GROWS, numbers, ENERGY_FROM_STEPS)
         }
         Source::LongSteps(turn) => {
             let what = format!("{numbers}, which turns by {} rad in a step", two_digits(turn));

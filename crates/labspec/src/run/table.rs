@@ -5,6 +5,7 @@ use super::budget::End;
 use super::cell::Cell;
 use super::diagnose::breakdowns_of;
 use super::session::Session;
+use crate::spec::Lab;
 use labspec_core::Warning;
 
 /// Rows of samples: time, then every trace, then every readout.
@@ -23,6 +24,39 @@ pub struct Table {
     /// Errors of programs.
     pub errors: Vec<String>,
 }
+
+/// The last value of a trace or a readout, as it is displayed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FinalValue<'a> {
+    /// The label of the trace or the readout.
+    pub label: &'a str,
+    /// The value with the digits of the readout, or with four.
+    pub value: String,
+    /// Whether it is a trace, and not a readout.
+    pub is_trace: bool,
+}
+
+/// The last values of all traces and readouts of a lab, in the order of the columns.
+pub fn final_values<'a>(lab: &Lab, table: &'a Table) -> Vec<FinalValue<'a>> {
+    let last = table.rows.last().into_iter().flatten();
+    let named = table.columns.iter().zip(last).skip(1);
+    named
+        .map(|(name, cell)| match name.strip_prefix("readout/") {
+            Some(label) => {
+                let readout = lab.readouts.iter().find(|readout| readout.label.value == label);
+                let digits = readout.map_or(TRACE_DIGITS, |readout| readout.digits());
+                FinalValue { label, value: cell.rounded(digits), is_trace: false }
+            }
+            None => {
+                let label = name.splitn(3, '/').nth(2).unwrap_or(name);
+                FinalValue { label, value: cell.rounded(TRACE_DIGITS), is_trace: true }
+            }
+        })
+        .collect()
+}
+
+/// Number of decimals of the last value of a trace.
+const TRACE_DIGITS: u32 = 4;
 
 /// The error if the programs and the model do not match.
 const FOREIGN: &str =

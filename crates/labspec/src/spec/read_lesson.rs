@@ -8,7 +8,7 @@ use super::problem::{Mistake, Problem};
 use super::read_lab::{read_any_lab, read_integrators, read_lab};
 use super::{comment, quiz, shared};
 use crate::json::{self, Json, Node};
-use crate::markdown::{self, Block, BlockKind, LAB_KINDS, Scan};
+use crate::markdown::{self, Block, BlockKind, LabKind, Scan};
 use crate::source::{MAX_FILE, SourceFile, SourceMap};
 use std::ops::Range;
 use std::path::Path;
@@ -109,7 +109,7 @@ fn markdown_file(lesson: &mut Lesson, at: Option<Range<usize>>) {
             break;
         }
         match &block.kind {
-            BlockKind::Lab(kind) if LAB_KINDS.contains(&kind.as_str()) => {
+            BlockKind::Lab(kind) => {
                 let node = body(block, &at, lesson);
                 if let Some(node) = &node
                     && nature(node) == Nature::Quiz
@@ -119,11 +119,14 @@ fn markdown_file(lesson: &mut Lesson, at: Option<Range<usize>>) {
                     lesson.quizzes.extend(quiz::read_quiz(node, &mut lesson.problems));
                     continue;
                 }
-                let read = if kind == "integrators" { read_integrators } else { read_lab };
+                let read = match kind {
+                    LabKind::Simulation => read_lab,
+                    LabKind::Comparison => read_integrators,
+                };
                 let lab = node.and_then(|node| read(&node, &mut lesson.problems));
                 push_lab(lesson, block.span.clone(), lab);
             }
-            BlockKind::Lab(widget) => {
+            BlockKind::Widget(widget) => {
                 let node = body(block, &at, lesson);
                 let model = node.as_ref().and_then(|n| match &n.get("model")?.json {
                     Json::Text(text) => Some(text.clone()),

@@ -2,7 +2,7 @@
 
 use super::watched_run;
 use crate::bind::Programs;
-use crate::run::{Breakdown, Cell, RunError, RunOptions, Table};
+use crate::run::{Breakdown, Cell, RunError, RunOptions, Table, final_values, rounded};
 use crate::source::{SourceMap, Text};
 use crate::spec::{ENERGY_DRIFT, Lab, Plot, Readout, Trace};
 use labspec_core::Model;
@@ -55,8 +55,39 @@ pub fn join_runs(lab: &Lab, runs: &[ComparedRun]) -> (Lab, Table) {
     (joined, table)
 }
 
+/// A row of the table of a comparison: the values of all runs.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ComparisonRow<'a> {
+    /// What the values are: the largest energy drift, a trace or a readout.
+    pub label: &'a str,
+    /// A value for each run, at its end.
+    pub values: Vec<String>,
+    /// Whether it is a trace, whose curves show more.
+    pub is_trace: bool,
+}
+
+/// The table of a comparison: the largest energy drift, then the last value of each trace and each readout.
+pub fn comparison_rows<'a>(lab: &Lab, runs: &'a [ComparedRun]) -> Vec<ComparisonRow<'a>> {
+    let drifts = runs.iter().map(|run| rounded(largest_drift(run), DRIFT_DIGITS)).collect();
+    let mut rows = vec![ComparisonRow { label: "largest energy drift", values: drifts, is_trace: false }];
+    for (i, run) in runs.iter().enumerate() {
+        for (k, last) in final_values(lab, &run.table).into_iter().enumerate() {
+            if i == 0 {
+                rows.push(ComparisonRow { label: last.label, values: Vec::new(), is_trace: last.is_trace });
+            }
+            if let Some(row) = rows.get_mut(k + 1) {
+                row.values.push(last.value);
+            }
+        }
+    }
+    rows
+}
+
+/// Number of decimals of an energy drift.
+const DRIFT_DIGITS: u32 = 4;
+
 /// The largest drift of the energy in a run; NaN if it has no number.
-pub fn largest_drift(run: &ComparedRun) -> f64 {
+fn largest_drift(run: &ComparedRun) -> f64 {
     let name = format!("plot/0/{ENERGY_DRIFT}");
     let Some(column) = run.table.columns.iter().position(|column| *column == name) else { return f64::NAN };
     let values = run.table.rows.iter().filter_map(|row| row.get(column)).map(Cell::number);

@@ -29,7 +29,7 @@ mod watch;
 
 pub use bodies::{body_name, body_of};
 pub use case::{Change, RunOutcome, StressCase};
-pub use compared::{ComparedRun, compared_runs, join_runs, largest_drift};
+pub use compared::{ComparedRun, ComparisonRow, compared_runs, comparison_rows, join_runs};
 pub use drift::without_pushed_bodies;
 pub use fault::{Fault, FaultEvidence, FaultGroup, FaultKind, add_fault, worst_fault};
 pub use interaction::{Action, Interaction, InteractionKind, list_interactions, window};

@@ -86,6 +86,9 @@ impl RunawayMonitor {
         }
         for k in 0..2 {
             let (speed, dof) = current[k];
+            if speed <= FAR_FACTOR * first[k] {
+                continue;
+            }
             let bound = FAR_FACTOR * (first[k] + expected_speeds(m)[k]);
             if speed > bound {
                 let half = self.start + 0.5 * (d.time - self.start);

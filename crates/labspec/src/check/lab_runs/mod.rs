@@ -216,6 +216,7 @@ fn begin<'a>(
             if !attempt.broke
                 && let Some(f) = rules::stiff_for_timestep::check_stiffness(
                     &attempt.model,
+                    &ready.programs.access,
                     ready.lab.place(),
                     &seconds(attempt.covered),
                 )

@@ -2,7 +2,7 @@
 
 use super::complete::completions_of;
 use super::{Completion, INTEGRATORS, RequestedNames, VERIFY, completions};
-use crate::markdown::{self, Block, BlockKind};
+use crate::markdown::{self, Block, BlockKind, LabKind};
 use crate::source::SourceFile;
 use crate::spec::{FileKind, comment, kind_of};
 use std::ops::Range;
@@ -20,7 +20,7 @@ pub fn completions_in(
     }
     let holds = |block: &&Block| {
         let span = block.body.span();
-        matches!(block.kind, BlockKind::Lab(_) | BlockKind::Quiz) && (span.start..=span.end).contains(&offset)
+        !matches!(block.kind, BlockKind::Code { .. }) && (span.start..=span.end).contains(&offset)
     };
     let scan = markdown::scan(file);
     let Some(Block { body, kind, .. }) = scan.blocks.iter().find(holds) else {
@@ -41,7 +41,7 @@ pub fn completions_in(
             here.end = middle;
         }
     }
-    let whole = matches!(kind, BlockKind::Lab(name) if name == "integrators").then_some(&INTEGRATORS);
+    let whole = (*kind == BlockKind::Lab(LabKind::Comparison)).then_some(&INTEGRATORS);
     let found = completions_of(whole, &body.value, here.start, names).into_iter();
     let whole = found.filter(|c| body.map.is_unbroken(c.replace.clone()));
     whole.map(|c| Completion { replace: body.map.span(c.replace), ..c }).collect()
