@@ -73,9 +73,13 @@ fn subtree_com(m: &Model, d: &mut Fields) {
     for i in 0..m.nbody {
         com[i] = scale(xipos[i], m.body_mass[i]);
     }
+    // The sum of the body at hand. In a chain, the next body adds to it.
+    let mut sum = com[m.nbody - 1];
     for i in (1..m.nbody).rev() {
         let parent = m.body_parentid[i] as usize;
-        com[parent] = add(com[parent], com[i]);
+        let of_parent = add(com[parent], sum);
+        com[parent] = of_parent;
+        sum = if parent == i - 1 { of_parent } else { com[i - 1] };
     }
     for i in 0..m.nbody {
         let mass = m.body_subtreemass[i];
@@ -90,8 +94,13 @@ pub(crate) fn com_vel(m: &Model, d: &mut Fields) {
     let (cvel, cdof_dot) = (rows_mut::<6>(&mut d.cvel), rows_mut::<6>(&mut d.cdof_dot));
     let qvel = &d.qvel;
     cvel[0] = [0.0; 6];
+    // The velocity of the body at hand. In a chain, the next body starts from it.
+    let mut v = [0.0; 6];
     for i in 1..m.nbody {
-        let mut v = cvel[m.body_parentid[i] as usize];
+        let parent = m.body_parentid[i] as usize;
+        if parent != i - 1 {
+            v = cvel[parent];
+        }
         let first = m.body_jntadr[i];
         for j in first as usize..(first + m.body_jntnum[i]) as usize {
             let mut k = m.jnt_dofadr[j] as usize;
