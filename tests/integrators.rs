@@ -4,7 +4,7 @@
 
 use crate::program::{Done, run_in};
 use crate::support::workspace;
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::path::Path;
 
 /// A lesson with one spring under all integrators. `KEYS` stands for further keys of the lab.
@@ -195,4 +195,38 @@ fn the_formatter_changes_only_what_the_author_wrote() {
     let expected = LESSON.replace("KEYS", r#" "setup": "data.qpos[0] = 0.1","#);
     let without_names = text.replace("data.joint('stretch').qpos[0]", "data.qpos[0]");
     assert_eq!(without_names, expected);
+}
+
+/// A servo and a spring that are too stiff for their timestep, with and without a select for the integrator. The attribute of the
+/// model has no effect where a control sets the integrator, so nothing advises it.
+#[test]
+fn no_integrator_is_advised_where_a_control_sets_it() {
+    let lab = |part: [&str; 2], start: &str, stop: f64, select: bool| {
+        let [joint, actuator] = part;
+        let xml = format!(
+            "<mujoco><worldbody><body name='rod'><joint name='hinge' axis='0 1 0' {joint}/><geom type='capsule' size='.02' fromto='0 0 0 0 0 -1'/></body></worldbody><actuator>{actuator}</actuator></mujoco>"
+        );
+        let mut lab = json!({"title": "stiff", "xml": xml, "setup": start, "stopAt": stop, "readouts": [{"label": "shown", "expr": "data.qpos[0]"}]});
+        if select {
+            lab["controls"] = json!([{"type": "select", "label": "method", "set": "model.opt.integrator", "options": [["Euler", 0], ["implicit", 1]], "value": 0, "init": true}]);
+        }
+        lab.to_string()
+    };
+    let servo =
+        (["", "<position name='servo' joint='hinge' kp='20000' kv='4000'/>"], "data.ctrl[0] = 0.1", 1.0);
+    let spring = (["stiffness='1e6'", ""], "data.qpos[0] = 0.001", 0.004);
+    let folder = tempfile::tempdir().unwrap();
+    for (command, (part, start, stop)) in
+        [("run", servo), ("check", servo), ("stability", servo), ("check", spring)]
+    {
+        let advised = |select: bool| {
+            std::fs::write(folder.path().join("lab.json"), lab(part, start, stop, select)).unwrap();
+            let done = run_in(folder.path(), &[command, "lab.json"]);
+            assert_eq!(done.code, 1, "{command}: {}{}", done.stdout, done.stderr);
+            assert!(done.stdout.contains("too stiff"), "{command}: {}", done.stdout);
+            done.stdout.contains("integrator=")
+        };
+        assert!(advised(false), "{command} {part:?}");
+        assert!(!advised(true), "{command} {part:?}");
+    }
 }

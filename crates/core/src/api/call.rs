@@ -425,25 +425,6 @@ pub fn energy_of_poses<S: Scope>(m: &Model, d: &mut Data<S>) -> Result<Option<En
     Ok(balance::energy_of_poses(m, d, s))
 }
 
-/// Copies the time, the positions and the velocities. Inputs stay, so the plan does too.
-///
-/// # Errors
-///
-/// When one of the data belongs to another model.
-pub fn copy_coordinates<S: Scope, T: Scope>(
-    m: &Model,
-    to: &mut Data<S>,
-    from: &Data<T>,
-) -> Result<(), Error> {
-    from.belongs_to(m)?;
-    to.belongs_to(m)?;
-    let (to, from) = (&mut to.fields, &from.fields);
-    to.time = from.time;
-    to.qpos.copy_from_slice(&from.qpos);
-    to.qvel.copy_from_slice(&from.qvel);
-    Ok(())
-}
-
 /// What [`copy_poses`] copies.
 const POSES: [FieldId; 8] = [
     data::xmat,

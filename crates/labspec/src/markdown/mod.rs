@@ -42,11 +42,8 @@ impl LabKind {
     pub const ALL: [LabKind; 2] = [LabKind::Simulation, LabKind::Comparison];
 
     /// The word after `lab` in a fence.
-    pub const fn word(self) -> &'static str {
-        match self {
-            LabKind::Simulation => "simlab",
-            LabKind::Comparison => "integrators",
-        }
+    pub fn word(self) -> &'static str {
+        self.fence().trim_start_matches("lab ")
     }
 
     /// The opening words of a fence.

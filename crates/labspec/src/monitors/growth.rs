@@ -46,8 +46,8 @@
 use super::{slides, stability};
 use labspec_core::math::{MINVAL, norm, rows};
 use labspec_core::{Data, Energy, Fields, Model, Plan, Planned, Scope, disable};
-use labspec_core::{copy_coordinates, copy_poses, energy_of_poses, exhausted, forward, limit, mass_matrix};
-use labspec_core::{mechanical_energy, mul_m, steps_compute_poses, work_left};
+use labspec_core::{copy_poses, energy_of_poses, exhausted, forward, limit, mass_matrix, mechanical_energy};
+use labspec_core::{mul_m, state, steps_compute_poses, work_left};
 
 /// Bounds of the factor by which the gain of one step must exceed the available energy: the usual value, and the largest
 /// value, which applies near the stability limit of a spring. `OSCILLATION_FACTOR` is the factor on the energy ratio of
@@ -352,7 +352,7 @@ fn dof_of_negative_damping(m: &Model, d: &Fields) -> Option<usize> {
 
 /// Copies the positions and velocities of a run.
 fn take<S: Scope>(copied: &mut Data<Planned>, m: &Model, d: &Data<S>) {
-    let copied = copy_coordinates(m, copied, d);
+    let copied = state::copy(m, d, copied, state::TIME | state::QPOS | state::QVEL);
     debug_assert!(copied.is_ok(), "both data belong to the model");
 }
 

@@ -1,10 +1,10 @@
 //! Breakdowns of a run, described for teachers: what broke, when, the likely cause, and a suggestion.
 
 use super::cell::rounded;
+use super::integrator::sets_integrator;
 use super::session::Session;
 use crate::monitors::stability::{self, StiffPart, UnstablePart};
 use crate::rules::Rule;
-use labspec_core::reflect::option;
 use labspec_core::{AccessSet, Model, Obj};
 
 /// A breakdown of a run, reported by the engine or silent, described for teachers.
@@ -152,7 +152,7 @@ pub fn attribute_to_soften(s: &UnstablePart, access: &AccessSet) -> String {
         (StiffPart::Limit, _) => "`solreflimit`",
         (StiffPart::Constraint, _) => "`solref`",
     };
-    match access.writes.contains(option::integrator) {
+    match sets_integrator(access) {
         true => format!("softer {attribute}"),
         false => format!("softer {attribute}, or `integrator=\"discrete\"`"),
     }

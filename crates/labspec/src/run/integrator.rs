@@ -1,6 +1,7 @@
 //! The integrators of the engine, by number and name.
 
-use labspec_core::{Model, integrator};
+use labspec_core::reflect::option;
+use labspec_core::{AccessSet, Model, integrator};
 
 /// An integrator by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,6 +26,11 @@ pub const INTEGRATORS: [Integrator; 9] = [
     Integrator { id: integrator::GAUSS, name: "gauss", shared: false },
     Integrator { id: integrator::ADAPTIVE, name: "adaptive", shared: false },
 ];
+
+/// Whether a program of a lab sets the integrator, so that the attribute of its model has no effect.
+pub fn sets_integrator(access: &AccessSet) -> bool {
+    access.writes.contains(option::integrator)
+}
 
 impl Integrator {
     /// The integrator with a name, ignoring case.

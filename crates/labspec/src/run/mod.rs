@@ -24,7 +24,7 @@ pub use budget::{Budget, End};
 pub use cell::{Cell, printed, rounded};
 pub use diagnose::{breakdowns_of, worst_breakdown};
 pub use held::ProgramsRef;
-pub use integrator::{INTEGRATORS, Integrator};
+pub use integrator::{INTEGRATORS, Integrator, sets_integrator};
 pub use messages::{describe_breakdown, error_finding};
 pub use play::{Play, play};
 pub use program_error::ProgramError;

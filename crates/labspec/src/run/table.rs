@@ -36,11 +36,12 @@ pub struct FinalValue<'a> {
     pub is_trace: bool,
 }
 
-/// The last values of all traces and readouts of a lab, in the order of the columns.
+/// The last values of all traces and readouts of a lab, in the order of the columns. A run without samples has no numbers.
 pub fn final_values<'a>(lab: &Lab, table: &'a Table) -> Vec<FinalValue<'a>> {
-    let last = table.rows.last().into_iter().flatten();
-    let named = table.columns.iter().zip(last).skip(1);
+    let last = table.rows.last().map_or(&[][..], Vec::as_slice);
+    let named = table.columns.iter().enumerate().skip(1);
     named
+        .map(|(i, name)| (name, last.get(i).unwrap_or(&Cell::Nothing)))
         .map(|(name, cell)| match name.strip_prefix("readout/") {
             Some(label) => {
                 let readout = lab.readouts.iter().find(|readout| readout.label.value == label);

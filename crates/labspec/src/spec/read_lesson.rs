@@ -137,7 +137,7 @@ fn markdown_file(lesson: &mut Lesson, at: Option<Range<usize>>) {
             BlockKind::Quiz => {
                 let Some(node) = body(block, &at, lesson) else { continue };
                 if nature(&node) == Nature::Lab {
-                    let mistake = Mistake::HoldsLab(head(text, block, "lab simlab"));
+                    let mistake = Mistake::HoldsLab(head(text, block, LabKind::Simulation.fence()));
                     lesson.problems.push(mistake.at(block.info.clone()));
                     let lab = read_lab(&node, &mut lesson.problems);
                     push_lab(lesson, block.span.clone(), lab);

@@ -187,3 +187,38 @@ fn shared_breakdowns(runs: &[ComparedRun]) -> Vec<Breakdown> {
     };
     all.into_iter().map(named).collect()
 }
+
+#[cfg(test)]
+#[allow(clippy::panic)] // a panic is the report of a failed test
+mod tests {
+    use super::*;
+    use crate::source::SourceFile;
+    use crate::spec::read_lesson;
+
+    /// A run that ended before its first sample has no numbers, and its column of the table stays.
+    #[test]
+    fn a_run_without_samples_keeps_its_column() {
+        let table = |rows: Vec<Vec<Cell>>| Table {
+            timestep: 0.002,
+            columns: ["time", "plot/0/energy drift", "readout/height"].map(String::from).to_vec(),
+            rows,
+            warnings: Vec::new(),
+            breakdowns: Vec::new(),
+            errors: Vec::new(),
+        };
+        let sampled = table(vec![[0.0, 0.5, 2.0].map(Cell::Number).to_vec()]);
+        let lesson = read_lesson(SourceFile::new("lab.json", r#"{"model": "ball"}"#));
+        let Some(lab) = lesson.labs.first().and_then(|entry| entry.lab.as_ref()) else { panic!("no lab") };
+        for order in [[0, 1], [1, 0]] {
+            let runs = order.map(|i| match i {
+                0 => ComparedRun { name: "Euler", table: sampled.clone() },
+                _ => ComparedRun { name: "RK4", table: table(Vec::new()) },
+            });
+            let rows = comparison_rows(lab, &runs);
+            let labels: Vec<&str> = rows.iter().map(|row| row.label).collect();
+            assert_eq!(labels, ["largest energy drift", "energy drift", "height"]);
+            let number = |i: usize| if order[i] == 0 { "2.0000" } else { "nan" };
+            assert_eq!(rows[2].values, [number(0), number(1)]);
+        }
+    }
+}

@@ -2,7 +2,7 @@
 
 use super::truth;
 use labspec::interrupt;
-use labspec::run::{Session, two_digits};
+use labspec::run::{Session, sets_integrator, two_digits};
 use labspec::spec::{Control, ControlKind};
 use labspec::stress::{
     Action, Change, FaultGroup, FaultKind, Interaction, RunOutcome, StressCase, worst_fault,
@@ -90,7 +90,9 @@ impl RemedyTests<'_, '_> {
                 }
             }
         }
-        for (change, apply) in candidates(&model, found.fault.kind) {
+        for (change, apply) in
+            candidates(&model, found.fault.kind, sets_integrator(&self.case.programs.access))
+        {
             if let Some(work) = self.work_with_change(found, &before, &apply)? {
                 list.push(WorkingRemedy { change, timestep: false, work, interaction: interaction(), apply });
             }
@@ -236,8 +238,8 @@ fn has_no_new_fault(found: &FaultGroup, before: &RunOutcome, after: &RunOutcome)
     worst_fault(&after.faults, &others).is_none()
 }
 
-/// Possible remedies for a fault of this kind.
-fn candidates(model: &Model, kind: FaultKind) -> Vec<ModelChange> {
+/// Possible remedies for a fault of this kind. Another integrator is none where a program sets it.
+fn candidates(model: &Model, kind: FaultKind, sets_integrator: bool) -> Vec<ModelChange> {
     let mut list: Vec<ModelChange> = Vec::new();
     let steps = [
         ("`integrator=\"discrete\"`", integrator::DISCRETE),
@@ -247,7 +249,8 @@ fn candidates(model: &Model, kind: FaultKind) -> Vec<ModelChange> {
     let breaks =
         matches!(kind, FaultKind::Diverges | FaultKind::Grows | FaultKind::Silent | FaultKind::Chatters);
     if breaks {
-        for (name, id) in steps.into_iter().filter(|(_, id)| *id != model.opt.integrator) {
+        let is_choice = |(_, id): &(&str, i32)| !sets_integrator && *id != model.opt.integrator;
+        for (name, id) in steps.into_iter().filter(is_choice) {
             list.push((name.into(), Box::new(move |m| *m.edit().opt.integrator = id)));
         }
         list.push(("contacts four times as soft (`solref`)".into(), Box::new(|m| soften(m, 4.0))));

@@ -28,8 +28,12 @@ pub fn extract(m: &Model, from: &[f64], sig: i32, out: &mut [f64], to: i32) -> R
     Ok(state::extract(m, from, sig, out, to)?)
 }
 
+/// The parts that are no inputs: a plan assumes nothing about them.
+const COORDINATES: i32 = TIME | QPOS | QVEL;
+
 /// Copies parts of a state from other data (`mj_copyState`).
 pub fn copy<S: Scope, T: Scope>(m: &Model, from: &Data<S>, to: &mut Data<T>, sig: i32) -> Result<(), Error> {
     from.belongs_to(m)?;
-    Ok(state::copy(m, &from.fields, to.engine_to_write(m)?.0, sig)?)
+    let (to, _) = if sig & !COORDINATES == 0 { to.engine(m)? } else { to.engine_to_write(m)? };
+    Ok(state::copy(m, &from.fields, to, sig)?)
 }
