@@ -136,3 +136,29 @@ fn a_hash_of_one_option_is_verified_and_no_fix_writes_over_it() {
         (Verdict::Failed, "no choice that was tried has the hash of the question")
     );
 }
+
+/// An answer in percent is the value of an expression in percent, or as a fraction of one.
+#[test]
+fn an_answer_in_percent_is_a_fraction_or_a_percentage() {
+    let verdict = |answer: &str, unit: &str, value: &str| {
+        let question = format!(
+            r##"{{"kind": "numeric", "q": "How much of the height is left?", "answer": {answer}, "tol": 1.0, "unit": "{unit}",
+                "verify": {{"lab": "#1", "runs": {{"run": {{"until": 0.3}}}}, "measure": {{"z": "final(data.qpos[2])", "z0": "initial(data.qpos[2])"}}, "value": "{value}"}}}}"##
+        );
+        let checked = check_text(
+            "fall.md",
+            &format!(
+                "```lab simlab\n{{\"xml\": \"<mujoco><option timestep='0.0005'/><worldbody><body pos='0 0 1'><freejoint/><geom size='0.05'/></body></worldbody></mujoco>\"}}\n```\n\n```quiz\n{{\"id\": \"q\", \"questions\": [{question}]}}\n```\n"
+            ),
+        );
+        checked.claims[0].judgement.answer.as_ref().unwrap().verdict
+    };
+    assert_eq!(verdict("55.8", "%", "z / z0"), Verdict::Verified);
+    assert_eq!(verdict("55.8", "%", "100 * z / z0"), Verdict::Verified);
+    assert_eq!(verdict("558.0", "‰", "z / z0"), Verdict::Verified);
+    assert_eq!(verdict("50.8", "%", "z / z0"), Verdict::Refuted);
+    assert_eq!(verdict("50.8", "%", "100 * z / z0"), Verdict::Refuted);
+    assert_eq!(verdict("5.58", "%", "z / z0"), Verdict::Refuted);
+    // Another unit is no percentage.
+    assert_eq!(verdict("55.8", "", "z / z0"), Verdict::Refuted);
+}

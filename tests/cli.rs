@@ -158,7 +158,7 @@ fn help_and_version_are_no_errors() {
     assert_eq!(run(&["--help"]).code, 0);
     assert_eq!(run(&["run", "--help"]).code, 0);
     assert_eq!(run(&["--version"]).stdout, format!("labspec {}\n", env!("CARGO_PKG_VERSION")));
-    assert_eq!((run(&[]).code, run(&["chekc"]).code, run(&["check"]).code), (2, 2, 2));
+    assert_eq!((run(&[]).code, run(&["chekc"]).code, run(&["run"]).code), (2, 2, 2));
 }
 
 /// Two runs print the same bytes.

@@ -160,7 +160,7 @@ fn a_value_is_a_number_that_could_be_another_one() {
 fn a_measure_without_numbers_says_how_many_are_missing() {
     let measure = json!({"measure": {"z": "final(data.qpos[2])", "root": "max(Math.sqrt(0.2 - data.time))"}});
     let checked = choice("root < 1", &measure);
-    let finding = checked.findings.iter().find(|f| f.code == "compares-nan").unwrap();
+    let finding = checked.findings.iter().find(|f| f.code == "measure-without-value").unwrap();
     let why = format!("{:?}", finding);
     assert!(why.contains("samples have no number, the first at t = 0.2 s"), "{why}");
 }

@@ -225,7 +225,7 @@ fn fmt_continues_after_an_unreadable_file() {
     std::fs::write(folder.path().join("b.md"), long_lesson(100)).unwrap();
     let done = run_in(folder.path(), &["fmt", "a.md", "b.md"]);
     assert_eq!(done.code, 2);
-    assert!(done.stdout.contains("b.md: 2 of 2 texts changed"), "{}", done.stdout);
+    assert!(done.stdout.contains("b.md: 2 of 2 texts and the layout of 1 block changed"), "{}", done.stdout);
     assert!(done.stderr.contains("a.md, line 1: not UTF-8"), "{}", done.stderr);
 }
 
@@ -347,13 +347,14 @@ const WRITERS: [(&str, &[&str]); 15] = [
     ("stability --svg", &["stability", "map.json", "--until", "0.02", "--map", "a,b", "--svg"]),
     ("stability --png", &["stability", "map.json", "--until", "0.02", "--map", "a,b", "--png"]),
 ];
-const READERS: [&str; 9] = [
+const READERS: [&str; 10] = [
     "build --config",
     "check --config",
     "check --judge",
     "check --since",
     "verify --config",
     "verify --judge",
+    "config --config",
     "lsp --config",
     "precision --beside",
     "preview --config",

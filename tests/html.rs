@@ -322,10 +322,9 @@ fn unclaimed_numbers_are_those_of_the_rule() {
         .map(visible_text)
         .collect();
     assert_eq!(listed, ["11 m"]);
-    // The answer counts as one more.
     assert_eq!(
         visible_text(with_class(tree.root(), "whole")[0]),
-        "Questions 1 of 1 have a check Numbers with units 11 of 12 are claimed"
+        "Questions 1 of 1 have a check Numbers with units 10 of 11 are claimed"
     );
 }
 

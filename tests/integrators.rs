@@ -194,7 +194,9 @@ fn the_formatter_changes_only_what_the_author_wrote() {
     let text = std::fs::read_to_string(folder.path().join("a.md")).unwrap();
     let expected = LESSON.replace("KEYS", r#" "setup": "data.qpos[0] = 0.1","#);
     let without_names = text.replace("data.joint('stretch').qpos[0]", "data.qpos[0]");
-    assert_eq!(without_names, expected);
+    // Long lines are broken.
+    let words = |text: &str| text.split_whitespace().collect::<String>();
+    assert_eq!(words(&without_names), words(&expected));
 }
 
 /// A servo and a spring that are too stiff for their timestep, with and without a select for the integrator. The attribute of the

@@ -3,6 +3,7 @@
 
 #![allow(clippy::unwrap_used)]
 
+use crate::needs::needs;
 use crate::program::run_in;
 use crate::support::{read_json, recording, workspace};
 use serde_json::{Value, json};
@@ -195,6 +196,46 @@ fn a_changed_verdict_is_reported() {
     let (_, mut recording) = asked(folder.path());
     recording["runs"][0]["broke"] = json!("badqacc at t = 0.1 s");
     assert_eq!(judged(folder.path(), &recording).0, 1);
+}
+
+#[test]
+fn a_measure_without_a_value_there_is_explained() {
+    let folder = folder();
+    let (_, mut recording) = asked(folder.path());
+    recording["runs"][0]["values"]["height"] = json!("NaN");
+    recording["runs"][0]["nan"] = json!({"height": "in `first(x > 1)`, the condition never holds"});
+    let (code, report, stdout) = judged(folder.path(), &recording);
+    assert_eq!(code, 1);
+    let why = "in `first(x > 1)`, the condition never holds there";
+    assert_eq!(report["judge"]["differing"][0]["reason"], json!(why));
+    assert!(stdout.contains(&format!("but NaN there: {why}")), "{stdout}");
+    // A value that only we lack is explained as well.
+    let (_, mut recording) = asked(folder.path());
+    recording["runs"][0]["values"]["never"] = json!(0.1);
+    let (_, _, stdout) = judged(folder.path(), &recording);
+    let why = "in `first(contact('ball', 'floor'))`, the condition never holds here";
+    assert!(stdout.contains(&format!("but 0.1 there: {why}")), "{stdout}");
+}
+
+/// The recording program states why a measure is NaN.
+#[test]
+fn the_recording_program_explains_nan() {
+    if !needs("node") {
+        return;
+    }
+    let program = "import { measure } from './measures.mjs';
+        const m = measure('2 * first(x > 1)', ['x']), n = measure('final(x)', ['x']), o = measure('at(y > first(x > 1), x)', ['x', 'y']);
+        for (const [t, x] of [[0, 0.5], [1, NaN]]) { m.sample([x], t); n.sample([x], t); o.sample([x, 1], t); }
+        console.log(m.absent()); console.log(n.absent()); console.log(o.absent());";
+    let file = workspace().join("tests/judge");
+    let done = std::process::Command::new("node")
+        .args(["--input-type=module", "-e", program])
+        .current_dir(file)
+        .output()
+        .unwrap();
+    let lines = String::from_utf8_lossy(&done.stdout).into_owned();
+    let expected = "in `first(x > 1)`, the condition never holds\nin `final(x)`, a sample has no number\nin `first(x > 1)`, the condition never holds\n";
+    assert_eq!(lines, expected, "{}", String::from_utf8_lossy(&done.stderr));
 }
 
 #[test]

@@ -114,12 +114,14 @@ fn files_that_pages_name_exist() {
     assert!(count > 60, "{count}");
 }
 
-/// The index of the documentation links to every page.
+/// The index of the documentation links to every page. The list of codes links to the pages of the rules.
 #[test]
 fn the_index_leads_to_every_page() {
     let docs = workspace().join("docs");
     let index = Page::read(&docs.join("README.md"));
-    let named: BTreeSet<PathBuf> = index.links.iter().map(|l| docs.join(l)).collect();
+    let codes = Page::read(&docs.join("reference/codes.md"));
+    let rules = codes.links.iter().map(|l| docs.join("reference").join(l));
+    let named: BTreeSet<PathBuf> = index.links.iter().map(|l| docs.join(l)).chain(rules).collect();
     let pages = all().1;
     let of_docs: Vec<&PathBuf> =
         pages.iter().filter(|p| p.starts_with(&docs) && !p.ends_with("docs/README.md")).collect();

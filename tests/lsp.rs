@@ -10,19 +10,19 @@ use std::process::{Child, ChildStdin, ChildStdout, Stdio};
 use std::time::{Duration, Instant};
 
 /// An editor that sends and receives messages.
-struct Editor {
+pub(crate) struct Editor {
     child: Child,
     to: ChildStdin,
     from: BufReader<ChildStdout>,
-    root: String,
+    pub(crate) root: String,
     next: u64,
     /// Received notifications that have not been processed.
-    heard: Vec<Value>,
+    pub(crate) heard: Vec<Value>,
 }
 
 impl Editor {
     /// Starts the program without sending a message.
-    fn start_editor(folder: &Path) -> Editor {
+    pub(crate) fn start_editor(folder: &Path) -> Editor {
         let mut command = program(folder, &["lsp", "--stdio"]);
         let mut child =
             command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::null()).spawn().unwrap();
@@ -31,7 +31,7 @@ impl Editor {
         Editor { child, to, from, root, next: 0, heard: Vec::new() }
     }
 
-    fn open(folder: &Path) -> Editor {
+    pub(crate) fn open(folder: &Path) -> Editor {
         let mut editor = Editor::start_editor(folder);
         let options = json!({"inlayHints": {"units": true}, "runOnSave": true});
         let root = editor.root.clone();
@@ -50,12 +50,12 @@ impl Editor {
         self.raw(format!("Content-Length: {}\r\n\r\n{text}", text.len()).as_bytes());
     }
 
-    fn notify(&mut self, method: &str, params: Value) {
+    pub(crate) fn notify(&mut self, method: &str, params: Value) {
         self.send(&json!({"jsonrpc": "2.0", "method": method, "params": params}));
     }
 
     /// The next message, or `None` at the end of the output.
-    fn receive(&mut self) -> Option<Value> {
+    pub(crate) fn receive(&mut self) -> Option<Value> {
         let mut length = 0;
         loop {
             let mut line = String::new();
@@ -76,7 +76,7 @@ impl Editor {
     }
 
     /// Sends a request, and returns its result or error.
-    fn ask(&mut self, method: &str, params: Value) -> Result<Value, Value> {
+    pub(crate) fn ask(&mut self, method: &str, params: Value) -> Result<Value, Value> {
         self.next += 1;
         let id = json!(self.next);
         self.send(&json!({"jsonrpc": "2.0", "id": id, "method": method, "params": params}));
@@ -96,18 +96,25 @@ impl Editor {
         }
     }
 
-    fn uri(&self, file: &str) -> String {
+    pub(crate) fn uri(&self, file: &str) -> String {
         format!("{}/{file}", self.root)
     }
 
-    fn did_open(&mut self, file: &str, text: &str) -> Value {
+    pub(crate) fn did_open(&mut self, file: &str, text: &str) -> Value {
         let document = json!({"uri": self.uri(file), "languageId": "markdown", "version": 1, "text": text});
         self.notify("textDocument/didOpen", json!({"textDocument": document}));
         self.found(file, 1)
     }
 
     /// Replaces a part of a document with a change notification.
-    fn change(&mut self, file: &str, version: u64, before: &str, part: std::ops::Range<usize>, text: &str) {
+    pub(crate) fn change(
+        &mut self,
+        file: &str,
+        version: u64,
+        before: &str,
+        part: std::ops::Range<usize>,
+        text: &str,
+    ) {
         let range = json!({"start": place(before, part.start), "end": place(before, part.end)});
         let document = json!({"uri": self.uri(file), "version": version});
         let changes = json!([{"range": range, "text": text}]);
@@ -115,7 +122,7 @@ impl Editor {
     }
 
     /// The next findings for a version of a document.
-    fn found(&mut self, file: &str, version: u64) -> Value {
+    pub(crate) fn found(&mut self, file: &str, version: u64) -> Value {
         let uri = self.uri(file);
         let about = |m: &Value| {
             m["method"] == "textDocument/publishDiagnostics"
@@ -132,11 +139,11 @@ impl Editor {
     }
 
     /// Sends a request for a position in a document.
-    fn at(&mut self, what: &str, file: &str, text: &str, byte: usize) -> Value {
+    pub(crate) fn at(&mut self, what: &str, file: &str, text: &str, byte: usize) -> Value {
         self.try_at(what, file, text, byte, json!({})).unwrap()
     }
 
-    fn try_at(
+    pub(crate) fn try_at(
         &mut self,
         what: &str,
         file: &str,
@@ -152,7 +159,7 @@ impl Editor {
     }
 
     /// Ends the session according to the protocol, and returns the exit code.
-    fn end(mut self) -> i32 {
+    pub(crate) fn end(mut self) -> i32 {
         self.ask("shutdown", Value::Null).unwrap();
         self.notify("exit", Value::Null);
         self.child.wait().unwrap().code().unwrap()
@@ -160,18 +167,18 @@ impl Editor {
 }
 
 /// The editor position of a byte.
-fn place(text: &str, byte: usize) -> Value {
+pub(crate) fn place(text: &str, byte: usize) -> Value {
     let before = &text[..byte];
     let line = before.rfind('\n').map_or(0, |at| at + 1);
     json!({"line": before.matches('\n').count(), "character": before[line..].encode_utf16().count()})
 }
 
-fn codes(found: &Value) -> Vec<&str> {
+pub(crate) fn codes(found: &Value) -> Vec<&str> {
     found.as_array().unwrap().iter().map(|d| d["code"].as_str().unwrap()).collect()
 }
 
 /// Applies all edits of one document to a text.
-fn edited(text: &str, edits: &Value) -> String {
+pub(crate) fn edited(text: &str, edits: &Value) -> String {
     let byte = |at: &Value| {
         let line = at["line"].as_u64().unwrap() as usize;
         let start = text.split_inclusive('\n').take(line).map(str::len).sum::<usize>();
@@ -198,11 +205,11 @@ fn edited(text: &str, edits: &Value) -> String {
 }
 
 /// The text without the `|`, and its position.
-fn marked(text: &str) -> (String, usize) {
+pub(crate) fn marked(text: &str) -> (String, usize) {
     (text.replace('|', ""), text.find('|').unwrap())
 }
 
-fn lab(inside: &str) -> String {
+pub(crate) fn lab(inside: &str) -> String {
     format!("# Ein Würfel 𝄞\n\n```lab simlab\n{{\"model\": \"ball_drop\", {inside}}}\n```\n")
 }
 
@@ -600,6 +607,12 @@ fn no_message_stops_the_server() {
         "rename",
         "codeAction",
         "inlayHint",
+        "signatureHelp",
+        "documentSymbol",
+        "foldingRange",
+        "formatting",
+        "rangeFormatting",
+        "codeLens",
     ] {
         for params in [
             json!(null),
@@ -614,6 +627,23 @@ fn no_message_stops_the_server() {
             // A response or an error; only its arrival matters.
             let _ = editor.ask(&format!("textDocument/{method}"), params);
         }
+    }
+    for (command, arguments) in [
+        ("labspec.check", json!([])),
+        ("labspec.check", json!([3])),
+        ("labspec.check", json!(["file:///nowhere.md"])),
+        ("labspec.check", json!(["not a URI %"])),
+        ("labspec.prove", json!([uri])),
+        ("labspec.prove", json!([uri, -1])),
+        ("labspec.prove", json!([uri, 4_294_967_295_u64])),
+        ("labspec.prove", json!(["\u{0}", 0])),
+        ("labspec.other", json!([uri])),
+    ] {
+        let params = json!({"command": command, "arguments": arguments});
+        assert!(editor.ask("workspace/executeCommand", params).is_err(), "{command} {arguments}");
+    }
+    for params in [json!(null), json!({"command": 3}), json!({"command": "labspec.check", "arguments": {}})] {
+        assert!(editor.ask("workspace/executeCommand", params).is_err());
     }
     for params in [
         json!(null),
@@ -635,10 +665,15 @@ fn no_message_stops_the_server() {
     let text = "> ```lab simlab\n> {“model”: \"ball_drop\", 'é': [\n> \"setup\": \"data.joint('𝄞\n\n```quiz {\"q\n```lab simlab\n{\"model\": \"ball_drop\", \"setup\": \"const f = (x => f(x)); ctx.a = `${\"\n";
     editor.did_open("b.md", text);
     for (byte, _) in text.char_indices() {
-        for what in ["completion", "hover", "definition", "prepareRename"] {
+        for what in ["completion", "hover", "definition", "prepareRename", "signatureHelp"] {
             let answer = editor.try_at(what, "b.md", text, byte, json!({}));
             assert!(answer.is_ok(), "{what} at {byte}: {answer:?}");
         }
+    }
+    for what in ["documentSymbol", "foldingRange", "formatting", "codeLens"] {
+        let about = json!({"textDocument": {"uri": uri}, "options": {"tabSize": 2, "insertSpaces": true}});
+        let answer = editor.ask(&format!("textDocument/{what}"), about);
+        assert!(answer.is_ok(), "{what}: {answer:?}");
     }
     editor.ask("shutdown", Value::Null).unwrap();
     assert_eq!(code(editor.ask("textDocument/hover", json!({}))), -32600);
@@ -843,7 +878,15 @@ fn huge_documents_are_answered() {
         ("<!-- labspec allow label-unit: x -->\n".repeat(20_000), 10),
     ] {
         editor.did_open("h.md", &text);
-        for what in ["completion", "hover", "definition"] {
+        for what in [
+            "completion",
+            "hover",
+            "definition",
+            "signatureHelp",
+            "documentSymbol",
+            "foldingRange",
+            "codeLens",
+        ] {
             assert!(editor.try_at(what, "h.md", &text, byte, json!({})).is_ok(), "{what}");
         }
         editor.change("h.md", 2, &text, 0..1, "#");
@@ -899,7 +942,7 @@ fn a_hundred_labs_answer_at_once() {
         ));
     }
     editor.did_open("100.md", &text);
-    let mut durations: [Vec<Duration>; 3] = Default::default();
+    let mut durations: [Vec<Duration>; 6] = Default::default();
     for (round, (at, _)) in text.clone().match_indices("data.ncon").step_by(9).enumerate() {
         let version = round as u64 + 2;
         let start = Instant::now();
@@ -914,8 +957,16 @@ fn a_hundred_labs_answer_at_once() {
         let start = Instant::now();
         assert!(editor.at("hover", "100.md", &text, at + 2).is_object());
         durations[2].push(start.elapsed());
+        for (what, times) in ["documentSymbol", "foldingRange", "codeLens"].iter().zip(&mut durations[3..]) {
+            let start = Instant::now();
+            let all = editor.at(what, "100.md", &text, at);
+            times.push(start.elapsed());
+            let all = all.to_string();
+            assert!(all.matches("\"range\"").count() + all.matches("\"startLine\"").count() > 50, "{all}");
+        }
     }
-    for (what, times) in ["findings", "completion", "hover"].into_iter().zip(&mut durations) {
+    let kinds = ["findings", "completion", "hover", "outline", "folds", "lenses"];
+    for (what, times) in kinds.into_iter().zip(&mut durations) {
         times.sort();
         let (median, slowest) = (times[times.len() / 2], times[times.len() - 1]);
         println!("{what}: {median:?}, at most {slowest:?}");
@@ -926,7 +977,7 @@ fn a_hundred_labs_answer_at_once() {
 }
 
 /// The rules and lines of the findings in the editor.
-fn shown_in_editor(found: &Value) -> Vec<(String, u64)> {
+pub(crate) fn shown_in_editor(found: &Value) -> Vec<(String, u64)> {
     let one = |f: &Value| {
         let line = f["range"]["start"]["line"].as_u64().unwrap() + 1;
         (f["code"].as_str().unwrap().to_string(), line)

@@ -10,11 +10,10 @@ use std::ops::Range;
 /// A finding: its code, the file, and its byte range.
 type Found = (String, String, Range<usize>);
 
-/// The findings of a check of an example, and all output of the program.
-fn found(example: &Example) -> (Vec<Found>, String) {
+/// The report of a check of the files of an example, the first of which is checked, and all output of the program.
+pub(crate) fn report_of(example: &Example, files: &[(String, Vec<u8>)]) -> (serde_json::Value, String) {
     let folder = tempfile::tempdir().unwrap();
-    let files = example::files(example);
-    for (name, bytes) in &files {
+    for (name, bytes) in files {
         let path = folder.path().join(name);
         std::fs::create_dir_all(path.parent().unwrap()).unwrap();
         match name.ends_with('/') {
@@ -38,7 +37,12 @@ fn found(example: &Example) -> (Vec<Found>, String) {
     }
     let out = run_in(folder.path(), &arguments);
     let output = format!("{}{}", out.stdout, out.stderr);
-    let report: serde_json::Value = serde_json::from_str(&out.stdout).unwrap_or_default();
+    (serde_json::from_str(&out.stdout).unwrap_or_default(), output)
+}
+
+/// The findings of a check of an example, and all output of the program.
+fn found(example: &Example) -> (Vec<Found>, String) {
+    let (report, output) = report_of(example, &example::files(example));
     let found = |f: &serde_json::Value| {
         let text = |value: &serde_json::Value| value.as_str().unwrap_or("").to_string();
         let byte = |key: &str| f[key].as_u64().unwrap_or(0) as usize;

@@ -47,7 +47,7 @@ fn predictions_of_real_lessons_are_scaffolded() {
             assert!(verified(outcome_of(&all, name)), "{name}: {:#?}", outcome_of(&all, name));
             good += 1;
         }
-        let with = written(&lesson, &all);
+        let with = written(&lesson, &all, &[]);
         for line in text.lines() {
             let is_unchanged = with.lines().any(|new| {
                 new == line || new.trim_end_matches(',') == line.trim_end_matches(['}', ']', ' '])
@@ -101,7 +101,7 @@ fn words_for_changes_select_a_control() {
     assert!(undecided.is_empty() && values.len() == 2 && values[1].1 > values[0].1, "{values:?}");
     assert!(verify["runs"].as_object().unwrap().values().any(|r| r["set"]["gravity"] == 5.0), "{verify:#}");
     // The written objects are parsed, and nothing else has changed.
-    let text = written(&lesson, &all);
+    let text = written(&lesson, &all, &[]);
     let again = load_lesson(SourceFile::new("fall.md", text.as_str()), &ModelFolder::unknown());
     assert_eq!(
         again.verifies().count(),
@@ -123,7 +123,7 @@ fn undecidable_proposals_are_omitted_with_the_reason() {
     for (question, why) in [
         (
             r#"{"kind": "mcq", "q": "Why does it fall?", "options": ["Because of its weight", "By chance"], "answer": 0}"#,
-            "words of its options",
+            "names no control",
         ),
         (r#"{"kind": "numeric", "q": "How many legs has a spider?", "answer": 8}"#, "no run"),
         (r#"{"kind": "mcq", "q": "What happens?", "options": ["It rises", "It stays the same"]}"#, "no key"),
@@ -142,4 +142,99 @@ fn undecidable_proposals_are_omitted_with_the_reason() {
         panic!("{all:?}")
     };
     assert!(matches!(verdict, Verdict::Verified | Verdict::Computed));
+}
+
+/// Two carts with springs between them on a rail.
+fn carts(question: &str) -> ScaffoldOutcome {
+    let carts = "<mujoco><option gravity='0 0 0' timestep='0.0005' integrator='RK4'/><default><joint type='slide' axis='1 0 0'/><geom size='.05' mass='1' condim='1' solref='-20000 0'/></default><worldbody><body name='red' pos='-.5 0 0'><joint name='red'/><geom name='red'/></body><body name='blue'><joint name='blue'/><geom name='blue'/></body></worldbody></mujoco>";
+    let lab = format!(
+        r#"{{"xml": "{carts}", "stopAt": 1.5, "setup": "data.qvel[0] = ctx.speed", "controls": [
+          {{"label": "mass of the blue cart", "unit": "kg", "apply": "model.body_mass[2] = value; mj.mj_setConst(model, data)", "min": 0.5, "max": 4, "step": 0.5, "value": 1, "reset": true}},
+          {{"label": "speed of the red cart", "unit": "m/s", "param": "speed", "min": 0.5, "max": 2, "step": 0.5, "value": 1, "reset": true}}],
+        "plots": [{{"ylabel": "velocity (m/s)", "traces": [{{"label": "red (m/s)", "expr": "data.joint('red').qvel[0]"}}, {{"label": "blue (m/s)", "expr": "data.joint('blue').qvel[0]"}}]}}],
+        "readouts": [{{"label": "momentum (kg m/s)", "expr": "model.body_mass[1] * data.qvel[0] + model.body_mass[2] * data.qvel[1]"}}]}}"#
+    );
+    let text = format!(
+        "# Carts\n\n```lab simlab\n{lab}\n```\n\n```quiz\n{{\"id\": \"carts\", \"questions\": [\n  {question}\n]}}\n```\n"
+    );
+    let (_, all) = scaffold_text("carts.md", &text, &Models::new(ModelFolder::unknown()));
+    outcome_of(&all, "quiz carts, question 1").clone()
+}
+
+/// Every form of question: the key is verified, and another key gets no proposal.
+#[test]
+fn forms_of_questions_are_decided() {
+    let options = |words: &[&str]| serde_json::to_string(words).unwrap();
+    for (kind, q, choices, key, wrong) in [
+        (
+            "mcq",
+            "The blue cart has 2 kg. Which cart is faster after the collision?",
+            options(&["The red one", "The blue one", "Both are equally fast"]),
+            "1",
+            "0",
+        ),
+        (
+            "mcq",
+            "With which mass of the blue cart is the blue cart fastest after the collision?",
+            options(&["0.5", "2", "4"]),
+            "0",
+            "2",
+        ),
+        (
+            "mcq",
+            "The mass of the blue cart is raised from 1 kg to 2 kg. How fast is the blue cart after the collision?",
+            options(&["Half as fast", "A third slower", "Just as fast", "More than twice as fast"]),
+            "1",
+            "2",
+        ),
+        (
+            "multiple",
+            "Which of these changes make the blue cart slower after the collision?",
+            options(&[
+                "A larger mass of the blue cart",
+                "A smaller mass of the blue cart",
+                "A smaller speed of the red cart",
+            ]),
+            "[0, 2]",
+            "[0]",
+        ),
+        (
+            "multiple",
+            "The mass of the blue cart is raised from 1 kg to 2 kg. Which of these become smaller?",
+            options(&[
+                "The momentum",
+                "The largest speed of the blue cart",
+                "The largest speed of the red cart",
+            ]),
+            "[1]",
+            "[0, 1]",
+        ),
+    ] {
+        let ask = |key: &str| {
+            carts(&format!(r#"{{"kind": "{kind}", "q": "{q}", "options": {choices}, "answer": {key}}}"#))
+        };
+        let found = ask(key);
+        assert!(verified(&found), "{q}: {found:#?}");
+        let found = ask(wrong);
+        assert!(!matches!(found, ScaffoldOutcome::Proposed { .. }), "{q} with the key {wrong}: {found:#?}");
+    }
+    for (statement, truth) in [
+        ("With a blue cart of 2 kg instead of 1 kg, the blue cart is faster after the collision.", false),
+        ("With a heavier blue cart, the blue cart is slower after the collision.", true),
+    ] {
+        let ask =
+            |key: bool| carts(&format!(r#"{{"kind": "truefalse", "q": "{statement}", "answer": {key}}}"#));
+        let found = ask(truth);
+        assert!(verified(&found), "{statement}: {found:#?}");
+        assert!(!matches!(ask(!truth), ScaffoldOutcome::Proposed { .. }), "{statement}");
+    }
+    // A number of a run whose setting the question does not state is no proposal.
+    let numeric = |q: &str, answer: &str| {
+        carts(&format!(
+            r#"{{"kind": "numeric", "q": "{q}", "answer": {answer}, "tol": 0.01, "unit": "m/s"}}"#
+        ))
+    };
+    assert!(verified(&numeric("The blue cart has 3 kg. How fast is it after the collision?", "0.5")));
+    let found = numeric("How fast is the blue cart after the collision?", "0.667");
+    assert!(!matches!(found, ScaffoldOutcome::Proposed { .. }), "{found:#?}");
 }

@@ -47,12 +47,13 @@ fn measured(run: &Json, name: &str) -> f64 {
 /// The source text of the finding about a refused run, and its message.
 fn refused(run: &Json) -> (String, String) {
     let (checked, text) = checked(run);
-    // An unknown label is also found without a run.
-    let expected = |c: &&str| *c == "run-impossible" || *c == "unknown-control";
-    assert!(codes(&checked).iter().all(expected), "{run}: {:?}", checked.findings);
+    // An unknown label is found without a run.
+    let expected = |c: &str| c == "run-impossible" || c == "unknown-control";
+    assert!(codes(&checked).into_iter().all(expected), "{run}: {:?}", checked.findings);
     assert!(checked.claims[0].judgement.unmade.is_some());
-    let finding = checked.findings.iter().find(|f| f.code == "run-impossible").unwrap();
-    (text[finding.span.clone()].to_string(), finding.message.clone())
+    let finding = checked.findings.iter().find(|f| expected(f.code)).unwrap();
+    let help = finding.help.clone().unwrap_or_default();
+    (text[finding.span.clone()].to_string(), format!("{}; {help}", finding.message))
 }
 
 #[test]
@@ -75,8 +76,8 @@ fn a_verified_run_with_a_setting_that_no_student_can_make_is_refused_at_its_valu
         (json!({"gravity": -4.9}), "-4.9", "the nearest values are -5 and -4.75"),
         (json!({"gravity": "moon"}), "moon", "it needs a number from -20 to 0, not the text \"moon\""),
         (json!({"gravity": true}), "true", "it needs a number from -20 to 0, not true"),
-        (json!({"Kick": 1}), "1", "press it instead of setting it"),
-        (json!({"gravty": -5}), "gravty", "did you mean \"gravity\"?"),
+        (json!({"Kick": 1}), "Kick", "press it instead of setting it"),
+        (json!({"gravty": -5}), "gravty", "did you mean `gravity`?"),
     ];
     for (set, place, expected) in cases {
         let (at, message) = refused(&json!({"set": set, "until": 0.1}));
@@ -113,7 +114,7 @@ fn run_with(set: &[(&str, Value)], press: &[(&str, f64)]) -> Result<f64, String>
         press: press.iter().map(|(l, t)| ((*l).into(), *t)).collect(),
         ..RunOptions::default()
     };
-    let table = run::run(lab, &model, &programs, &options).map_err(|e| e.0)?;
+    let table = run::run(lab, &model, &programs, &options).map_err(|e| e.to_string())?;
     Ok(table.rows.last().unwrap()[1].number())
 }
 

@@ -243,7 +243,7 @@ const LANGUAGE_CRATES: [&str; 2] = ["machine", "expr"];
 
 /// The modules of the language, from the lowest to the highest. Binding comes after programs, because the arguments of
 /// an aggregate are programs.
-const LANGUAGE: [&str; 39] = [
+const LANGUAGE: [&str; 40] = [
     "host_terms",
     "rules",
     "number",
@@ -282,6 +282,7 @@ const LANGUAGE: [&str; 39] = [
     "bind",
     "columnar",
     "complete",
+    "signature",
     "reference",
 ];
 

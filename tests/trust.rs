@@ -177,7 +177,7 @@ fn constants_and_nan_are_evidence_of_nothing() {
     {
         let (verdict, found) = judged(options, never.clone());
         assert_eq!(verdict, Verdict::Failed);
-        assert!(found.contains(&"compares-nan"), "{found:?}");
+        assert!(found.contains(&"measure-without-value"), "{found:?}");
     }
     assert_eq!(judged(json!(["isNaN(never)", "never < 1"]), never).0, Verdict::Failed);
     let asked = judged(
@@ -198,7 +198,7 @@ fn a_numeric_answer_needs_a_simulated_value() {
     assert_eq!(judged("1.23"), (Verdict::Failed, vec!["constant-claim"]));
     assert_eq!(judged("0.5 * 9.81 * 0.5 * 0.5"), (Verdict::Computed, vec![]));
     assert_eq!(judged("2 - final(data.qpos[2])"), (Verdict::Verified, vec![]));
-    assert_eq!(judged("first(data.qpos[2] < -99)"), (Verdict::Failed, vec!["claim-without-number"]));
+    assert_eq!(judged("first(data.qpos[2] < -99)"), (Verdict::Failed, vec!["measure-without-value"]));
 }
 
 /// Line 5: a run that fails verifies nothing, unless a condition reads its warnings, or the lesson states that it fails.

@@ -1,11 +1,11 @@
-//! The tutorial, executed literally: its files are written, its changes made, its commands run, and the output
-//! must equal that in the page. Before it, the page shows the example course in a browser, by the command of the README.
+//! The tutorial and the cookbook, executed literally: their files are written, their changes made, their commands run, and the output
+//! must equal that in the page. Before it, the tutorial shows the example course in a browser, by the command of the README.
 //!
 //! A block belongs to the line of prose before it. `diff` changes the last file named in the line. `sh` is run, and a block of
 //! `text` after it is its output. Any other block is written into the last file named in the line, or appended to it if the
 //! line begins with "Add". A drawing in the page (`.svg`) is the file with that name.
 //!
-//! `LABSPEC_BLESS=1 cargo test -p labspec-cli --test all tutorial` writes the current output into the page and its pictures.
+//! `LABSPEC_BLESS=1 cargo test -p labspec-cli --test all tutorial` writes the current output into the pages and their pictures.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
@@ -92,7 +92,19 @@ const BUILD: &str = "cargo install --path crates/cli --locked\nlabspec --version
 
 #[test]
 fn the_tutorial_is_followed_word_for_word() {
-    let page_file = workspace().join("docs/tutorial.md");
+    let (outputs, pictures) = follow("docs/tutorial.md");
+    assert!(outputs > 8 && pictures > 0, "{outputs} {pictures}");
+}
+
+#[test]
+fn the_cookbook_is_followed_word_for_word() {
+    let (outputs, _) = follow("docs/cookbook.md");
+    assert!(outputs > 20, "{outputs}");
+}
+
+/// Follows a page: returns the number of outputs and of pictures that were compared.
+fn follow(page: &str) -> (usize, usize) {
+    let page_file = workspace().join(page);
     let page = std::fs::read_to_string(&page_file).unwrap();
     let bless = std::env::var_os("LABSPEC_BLESS").is_some();
     let folder = tempfile::tempdir().unwrap();
@@ -155,9 +167,9 @@ fn the_tutorial_is_followed_word_for_word() {
         }
         real += &format!("{ticks}{kind}\n{block}{ticks}\n");
     }
-    assert!(typed > 8 && pictures > 0, "{typed} {pictures}");
     if bless {
         std::fs::write(&page_file, &real).unwrap();
     }
     assert!(real == std::fs::read_to_string(&page_file).unwrap());
+    (typed, pictures)
 }

@@ -144,7 +144,7 @@ fn numeric(answer: &str, tol: &str, value: &str, says: &str) -> String {
     format!(
         r##"    {{
       "kind": "numeric",
-      "q": "When does the ball first touch the floor?",
+      "q": "The ball falls 0.95 m. When does it first touch the floor?",
       "answer": {answer}, "tol": {tol}, "unit": "s",
       "explain": "It falls 0.95 m, which takes 0.440 s.",
       "verify": {{"lab": "#1", "runs": {{"drop": {{"until": 1}}}},
@@ -289,7 +289,7 @@ fn unreadable_quotes_are_reported_and_not_called_wrong() {
         ("3,5 N", "4", "quote-unclear"),
         ("1/2", "0.5", "quote-unclear"),
         ("3:2", "1.5", "quote-unclear"),
-        ("less than 1 mm", "0.83", "quote-unclear"),
+        ("other than 1 mm", "0.83", "quote-unclear"),
         ("0.442 s at 2 ms", "2", "quote-unclear"),
         ("0.83 mm", "0.00083", "quote-unit"),
         ("0.25 m", "0 / 0", "quote-without-value"),
@@ -314,12 +314,17 @@ fn findings_about_quotes_say_what_to_do() {
     let says = r#"["0.83 mm", "0.00083 + 0"]"#;
     expect_quote("quote-unit", "failed", "It sinks by 0.83 mm.", &numeric("0.44", "0.005", "touch", says));
     let says = r#"["0.25 s", "first(contact('ball', 'floor') && data.time > 2)"]"#;
-    expect_quote("quote-without-value", "failed", "After 0.25 s.", &numeric("0.44", "0.005", "touch", says));
-    let says = r#"["less than 1 mm", "0.83 + 0"]"#;
+    expect_quote(
+        "measure-without-value",
+        "failed",
+        "After 0.25 s.",
+        &numeric("0.44", "0.005", "touch", says),
+    );
+    let says = r#"["other than 1 mm", "0.83 + 0"]"#;
     expect_quote(
         "quote-unclear",
         "failed",
-        "It sinks by less than 1 mm.",
+        "It sinks by other than 1 mm.",
         &numeric("0.44", "0.005", "touch", says),
     );
     let says = r#"["0.25 m", "0.25 + 0"]"#;
@@ -676,9 +681,14 @@ fn sweeps_measure_a_law() {
 #[test]
 fn an_invalid_sweep_is_refused() {
     for (sweep, words) in [
-        (json!({"start (m)": [1]}), "2 to 50 values; this one has 1"),
-        (json!({"start (m)": {"from": 0, "to": 1, "count": 51}}), "2 to 50 values; this one has 51"),
-        (json!({"start (m)": [0.5, 1], "timestep h": [0.1]}), "must change exactly one thing"),
+        (json!({"start (m)": [1]}), "2 to 100 runs; this one has 1"),
+        (json!({"start (m)": {"from": 0, "to": 1, "count": 101}}), "2 to 100 runs; this one has 101"),
+        (json!({}), "must change 1 to 4 things"),
+        (json!({"start (m)": [0.5, 1], "timestep h": [0.1]}), "2 to 100 runs; this one has 1"),
+        (
+            json!({"start (m)": {"from": 0.3, "to": 1, "count": 20}, "timestep h": {"from": 0.001, "to": 0.01, "count": 10}}),
+            "this one has 200",
+        ),
         (json!({"strat (m)": [0.5, 1]}), "did you mean `start (m)`?"),
         (json!({"geom bal mass": [0.5, 1]}), "did you mean `ball`?"),
         (json!({"start (m)": [0.5, 3]}), "3 cannot be chosen"),

@@ -61,6 +61,16 @@ const HOW = {
     }, () => (ups.length < 2 ? NaN : (ups[ups.length - 1] - ups[0]) / (ups.length - 1))];
   },
 };
+// Why a measure has no value, if it is not a sample without a number.
+const ABSENT = {
+  first: 'the condition never holds',
+  at: 'the condition never holds',
+  last: 'the condition never holds',
+  before: 'the condition never holds, or it holds at the first sample',
+  crossing: 'the value never passes the level',
+  period: 'there are fewer than two upward passages',
+  settles: 'the value is outside of the band at the end',
+};
 const above = (a, n) => a(0) - (n > 1 ? a(1) : 0);
 const zero = (was, t, x) => was.t + (t - was.t) * (was.x / (was.x - x));
 function area(of, end) {
@@ -127,5 +137,13 @@ export function measure(text, names) {
     },
     now(values) { return end(...values, ...all.map((call) => call.result())); },
     finish(values) { return +this.now(values); },
+    // Why it is NaN: the first of its parts that has no value.
+    absent() {
+      const call = all.find((one) => Number.isNaN(+one.result()));
+      if (!call) return 'its value is not a number';
+      const inside = call.args.map((arg) => arg.absentInside()).find((why) => why);
+      return inside ?? `in \`${text.slice(call.start, call.end)}\`, ${ABSENT[call.name] ?? 'a sample has no number'}`;
+    },
+    absentInside() { return all.some((one) => Number.isNaN(+one.result())) ? this.absent() : null; },
   };
 }

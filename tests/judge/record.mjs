@@ -47,15 +47,16 @@ function make(task) {
       try { return stop && s.call(stop); } catch { return false; }
     };
     s.run(sample);
-    const values = {}, refused = {};
+    const values = {}, refused = {}, nan = {};
     const keep = (name, m, extra) => {
       const x = m.refused ? null : attempt(() => ({ x: m.finish([...s.values, ...extra]) }), m);
       if (m.refused) refused[name] = m.refused; else values[name] = Number.isFinite(x.x) ? x.x : String(x.x);
+      if (values[name] === 'NaN') nan[name] = m.absent();
     };
     measures.forEach(([name, m]) => keep(name, m, []));
     const known = task.measures.map(([name]) => (name in values ? Number(values[name]) : NaN));
     expressions.forEach(([text, m]) => keep(text, m, known));
-    return { values, refused, warnings: s.warnings(), broke: s.broke() };
+    return { values, refused, nan, warnings: s.warnings(), broke: s.broke() };
   } finally { s.free(); }
 }
 
@@ -81,6 +82,7 @@ for (const { file, claim, run, hash, task, refused } of request.runs) {
   for (const [name, why] of Object.entries(made.refused)) process.stderr.write(`${file}, ${claim}, ${run}, ${name}: ${why}\n`);
   const one = { file, claim, run, hash, values: made.values };
   if (Object.keys(made.refused).length) one.refused = made.refused;
+  if (made.nan && Object.keys(made.nan).length) one.nan = made.nan;
   if (made.warnings) one.warnings = made.warnings;
   if (made.broke) one.broke = made.broke;
   runs.push(one);

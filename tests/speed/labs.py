@@ -100,7 +100,7 @@ class Run:
         return sum(map(min, self.chunks.values())) / self.steps
 
 
-LENGTHS = (20_000, 60_000)
+LENGTHS = (20_000, 100_000)
 
 
 def whole_run_seconds(lab, steps, settings=()):

@@ -186,36 +186,10 @@ fn same(view: View<'_>, held: &[u64]) -> bool {
     }
 }
 
-/// The kinds of objects, by MuJoCo's prefixes.
-const KINDS: [(&str, Obj); 21] = [
-    ("body", Obj::Body),
-    ("jnt", Obj::Joint),
-    ("geom", Obj::Geom),
-    ("site", Obj::Site),
-    ("cam", Obj::Camera),
-    ("light", Obj::Light),
-    ("mesh", Obj::Mesh),
-    ("skin", Obj::Skin),
-    ("hfield", Obj::HField),
-    ("tex", Obj::Texture),
-    ("mat", Obj::Material),
-    ("pair", Obj::Pair),
-    ("exclude", Obj::Exclude),
-    ("eq", Obj::Equality),
-    ("tendon", Obj::Tendon),
-    ("actuator", Obj::Actuator),
-    ("sensor", Obj::Sensor),
-    ("numeric", Obj::Numeric),
-    ("text", Obj::Text),
-    ("tuple", Obj::Tuple),
-    ("key", Obj::Key),
-];
-
 /// The kind with this prefix.
 pub(crate) fn kind(word: &str) -> Result<Obj, JsValue> {
-    let found = KINDS.iter().find(|(name, _)| *name == word);
-    found.map(|(_, kind)| *kind).ok_or_else(|| {
-        let words: Vec<&str> = KINDS.iter().map(|(name, _)| *name).collect();
+    Obj::from_prefix(word).ok_or_else(|| {
+        let words: Vec<&str> = Obj::PREFIXES.iter().map(|(name, _)| *name).collect();
         call_error(
             "unknown-kind",
             &format!("`{word}` is not a kind of objects: it is one of {}", words.join(", ")),

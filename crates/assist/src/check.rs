@@ -5,12 +5,14 @@
 
 use super::document::{Context, Document};
 use labspec::bind::scene::Models;
-use labspec::check::{self, CheckLevel, LabOutcome};
-use labspec::finding::Finding;
-use labspec::spec::{FileKind, Lab, LabEntry, Lesson, Other, Verify, VerifyLab};
+use labspec::check::{self, CheckLevel, Checked, Claim, LabOutcome};
+use labspec::finding::{self, Finding};
+use labspec::lint::check_course;
+use labspec::spec::{FileKind, Lab, LabEntry, Lesson, Other, Verify, VerifyLab, kind_of};
 use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::ops::Range;
+use std::path::Path;
 
 impl Document {
     /// Checks the text, and stores the findings.
@@ -28,20 +30,33 @@ impl Document {
     fn check_lesson(&mut self, context: &Context) -> Vec<Finding> {
         self.lesson = None;
         let Some(lesson) = self.read_lesson(context) else { return Vec::new() };
-        // JSON that contains neither labs nor quizzes belongs to another program.
-        if self.kind == FileKind::Json && lesson.labs.is_empty() && lesson.quizzes.is_empty() {
+        if is_other_json(&lesson) {
             return Vec::new();
         }
-        check_blocks(&lesson, &mut self.blocks, &context.models)
+        reported(&check_blocks(&lesson, &mut self.blocks, &context.models))
     }
 }
 
-/// The findings of a lesson. Only new blocks are bound.
-fn check_blocks(
-    lesson: &Lesson,
-    blocks: &mut BTreeMap<String, Vec<Finding>>,
-    models: &Models,
-) -> Vec<Finding> {
+/// Whether a file is JSON that contains neither labs nor quizzes, which belongs to another program.
+fn is_other_json(lesson: &Lesson) -> bool {
+    let kind = kind_of(Path::new(&**lesson.file.path()));
+    kind == FileKind::Json && lesson.labs.is_empty() && lesson.quizzes.is_empty()
+}
+
+/// The findings of a checked lesson as `labspec check` reports them for this file: also those about all of its questions
+/// together. There are none for JSON of another program.
+pub fn reported(checked: &Checked) -> Vec<Finding> {
+    if is_other_json(&checked.lesson) {
+        return Vec::new();
+    }
+    let mut all = check_course(&[&checked.lesson]);
+    all.extend(checked.findings.iter().cloned());
+    finding::sort(&mut all);
+    all
+}
+
+/// Checks a lesson without runs. Only new blocks are bound.
+fn check_blocks(lesson: &Lesson, blocks: &mut BTreeMap<String, Vec<Finding>>, models: &Models) -> Checked {
     let mut next_blocks = BTreeMap::new();
     let mut findings = Vec::new();
     let models_now = models_hash(models);
@@ -57,7 +72,7 @@ fn check_blocks(
     }
     *blocks = next_blocks;
     let found = LabOutcome::from_findings(findings);
-    check::join(lesson.clone(), found, CheckLevel::STATIC).findings
+    check::join(lesson.clone(), found, CheckLevel::STATIC)
 }
 
 /// A hash that changes with the list of models.
@@ -68,7 +83,7 @@ fn models_hash(models: &Models) -> u64 {
 }
 
 /// The byte ranges of the labs, quizzes and claims in comments of a lesson.
-fn units(lesson: &Lesson) -> Vec<Range<usize>> {
+pub(crate) fn units(lesson: &Lesson) -> Vec<Range<usize>> {
     let labs = lesson.labs.iter().map(|entry| entry.span.clone());
     let quizzes = lesson.quizzes.iter().map(|quiz| quiz.span.clone());
     labs.chain(quizzes).chain(lesson.remarks.iter().map(|remark| remark.span.clone())).collect()
@@ -76,13 +91,21 @@ fn units(lesson: &Lesson) -> Vec<Range<usize>> {
 
 /// The dependencies of the findings of a block: its text, the text to which it applies, and the texts of the labs
 /// and claims that it names.
-fn block_key(lesson: &Lesson, unit: &Range<usize>) -> String {
+pub(crate) fn block_key(lesson: &Lesson, unit: &Range<usize>) -> String {
     let over = lesson.remarks.iter().filter(|remark| remark.span == *unit).map(|remark| remark.over.clone());
     let mut key = lesson.file.slice(unit.clone()).to_string();
     let used = claims(lesson, unit).flat_map(|claim| lesson.used_by(claim)).map(|used| used.span.clone());
     for span in over.chain(used) {
         key.push('\0');
         key.push_str(lesson.file.slice(span));
+    }
+    // Files with values, and listings that are models, can be changed without the block.
+    for file in &lesson.data {
+        let text = file.text.as_deref().unwrap_or_else(|why| why);
+        key.push_str(text);
+    }
+    if lesson.file.slice(unit.clone()).contains("\"listing\"") {
+        key.push_str(lesson.file.text());
     }
     for named in named_by(lesson, unit) {
         key.push('\0');
@@ -116,6 +139,20 @@ fn within(span: &Range<usize>, unit: &Range<usize>) -> bool {
 
 /// Binds one block as if only the blocks that it names existed. Spans count from the start of the block.
 fn check_block(lesson: &Lesson, unit: &Range<usize>, models: &Models) -> Vec<Finding> {
+    let found = check::run_checks(&part_of(lesson, unit), models, CheckLevel::STATIC).findings;
+    let inside = found.into_iter().filter(|f| (unit.start..=unit.end).contains(&f.span.start));
+    inside.map(|f| moved(&f, |at| at.wrapping_sub(unit.start))).collect()
+}
+
+/// Checks the claims of one block with all their runs, as if only the blocks that it names existed.
+pub fn check_claims_of(lesson: &Lesson, unit: &Range<usize>, models: &Models) -> Vec<Claim> {
+    let part = Lesson { scan: lesson.scan.clone(), ..part_of(lesson, unit) };
+    let claims = check::run_checks(&part, models, CheckLevel::CLAIMS).claims;
+    claims.into_iter().filter(|claim| within(&claim.span, unit)).collect()
+}
+
+/// A lesson with one block and the blocks that it names.
+fn part_of(lesson: &Lesson, unit: &Range<usize>) -> Lesson {
     let named: Vec<&VerifyLab> = named_by(lesson, unit).collect();
     let referenced: Vec<&Lab> = named.iter().filter_map(|named| lesson.named(named)).collect();
     let elsewhere = |other: &&Other| {
@@ -129,12 +166,13 @@ fn check_block(lesson: &Lesson, unit: &Range<usize>, models: &Models) -> Vec<Fin
         lab: entry.lab.clone().filter(|_| needed(&entry.span)),
         ..entry.clone()
     };
-    let part = Lesson {
+    Lesson {
         file: lesson.file.clone(),
         labs: lesson.labs.iter().map(entry).collect(),
         quizzes: lesson.quizzes.iter().filter(|quiz| needed(&quiz.span)).cloned().collect(),
         widgets: Vec::new(),
         broken: Vec::new(),
+        definitions: lesson.definitions.clone(),
         remarks: lesson.remarks.iter().filter(|remark| within(&remark.span, unit)).cloned().collect(),
         wholes: lesson.wholes.clone(),
         others: lesson.others.iter().filter(elsewhere).cloned().collect(),
@@ -142,11 +180,9 @@ fn check_block(lesson: &Lesson, unit: &Range<usize>, models: &Models) -> Vec<Fin
         problems: Vec::new(),
         findings: Vec::new(),
         snapshot: None,
+        data: lesson.data.clone(),
         place: None,
-    };
-    let found = check::run_checks(&part, models, CheckLevel::STATIC).findings;
-    let inside = found.into_iter().filter(|f| (unit.start..=unit.end).contains(&f.span.start));
-    inside.map(|f| moved(&f, |at| at.wrapping_sub(unit.start))).collect()
+    }
 }
 
 /// A finding with all its spans shifted.
@@ -180,12 +216,8 @@ mod tests {
 
     /// The findings of a lesson without the cache, which [`Document::check`] must find as well.
     fn plainly(file: SourceFile, path: &Path, models: &Models) -> Vec<Finding> {
-        check::check_lesson(
-            load_lesson_at(file, path, &Sources::Disk, models.folder()),
-            models,
-            CheckLevel::STATIC,
-        )
-        .findings
+        let lesson = load_lesson_at(file, path, &Sources::Disk, models.folder());
+        reported(&check::check_lesson(lesson, models, CheckLevel::STATIC))
     }
 
     /// Claims that name others: one in a comment, one about a lab of another lesson, and one that uses

@@ -110,19 +110,27 @@ pub fn suppression(lesson: &Lesson, f: &Finding) -> Option<TextFix> {
             (span.start + 1, format!("{gap}\"lint\": {{\"allow\": [\"{}\"], \"why\": \"\"}}{comma}", f.code))
         }
         None if kind_of(Path::new(&**file.path())) == FileKind::Lesson => {
-            let line = file.position(f.span.start).line;
-            // Before the paragraph or the block, where a comment is valid.
-            let empty =
-                |line: usize| file.line_span(line).is_none_or(|span| file.slice(span).trim().is_empty());
-            let block =
-                lesson.scan.blocks.iter().find(|b| holds(&b.span)).map(|b| file.position(b.span.start).line);
-            let first =
-                block.unwrap_or_else(|| (1..=line).rev().find(|l| *l == 1 || empty(l - 1)).unwrap_or(line));
-            let end = if file.text().contains("\r\n") { "\r\n" } else { "\n" };
-            (file.line_span(first)?.start, format!("<!-- labspec allow {}:  -->{end}", f.code))
+            let end = line_end(file);
+            (comment_place(lesson, f.span.start)?, format!("<!-- labspec allow {}:  -->{end}", f.code))
         }
         None => return None,
     };
     let title = format!("suppress `{}` here, with a reason", f.code);
     Some(TextFix { title, kind: FixKind::Suppression, edit: Edit { span: at..at, text } })
+}
+
+/// The start of the line before which a comment about a byte of the text is valid: that of its block or its paragraph.
+pub fn comment_place(lesson: &Lesson, byte: usize) -> Option<usize> {
+    let file = &lesson.file;
+    let line = file.position(byte).line;
+    let empty = |line: usize| file.line_span(line).is_none_or(|span| file.slice(span).trim().is_empty());
+    let block = lesson.scan.blocks.iter().find(|b| b.span.start <= byte && byte < b.span.end);
+    let first = block.map(|b| file.position(b.span.start).line);
+    let first = first.unwrap_or_else(|| (1..=line).rev().find(|l| *l == 1 || empty(l - 1)).unwrap_or(line));
+    Some(file.line_span(first)?.start)
+}
+
+/// The line end of a text.
+pub fn line_end(file: &SourceFile) -> &'static str {
+    if file.text().contains("\r\n") { "\r\n" } else { "\n" }
 }

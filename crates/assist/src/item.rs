@@ -112,3 +112,85 @@ pub struct TextFix {
     /// The edit.
     pub edit: Edit,
 }
+
+/// The kind of an outline item.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OutlineKind {
+    /// A heading of the text.
+    Heading,
+    /// A lab.
+    Lab,
+    /// A slider, a select or a button.
+    Control,
+    /// A curve of a plot.
+    Trace,
+    /// A displayed value.
+    Readout,
+    /// A claim in a comment.
+    Claim,
+    /// A run of a claim.
+    Run,
+    /// A measure or a search of a claim.
+    Measure,
+    /// A quiz.
+    Quiz,
+    /// A question.
+    Question,
+}
+
+impl OutlineKind {
+    /// The kind as a word.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            OutlineKind::Heading => "heading",
+            OutlineKind::Lab => "lab",
+            OutlineKind::Control => "control",
+            OutlineKind::Trace => "trace",
+            OutlineKind::Readout => "readout",
+            OutlineKind::Claim => "claim",
+            OutlineKind::Run => "run",
+            OutlineKind::Measure => "measure",
+            OutlineKind::Quiz => "quiz",
+            OutlineKind::Question => "question",
+        }
+    }
+}
+
+/// A part of a lesson, with the parts inside of it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct OutlineItem {
+    /// Its name, in one line; not empty.
+    pub name: String,
+    /// Its model, its id, or the word of its kind; may be empty.
+    pub detail: String,
+    /// Its kind.
+    pub kind: OutlineKind,
+    /// Its bytes.
+    pub span: Range<usize>,
+    /// The bytes of its name, inside of its span.
+    pub selection: Range<usize>,
+    /// Its parts, inside of its span.
+    pub children: Vec<OutlineItem>,
+}
+
+/// The kind of a fold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FoldKind {
+    /// The section of a heading.
+    Section,
+    /// A fence, or an HTML element.
+    Block,
+    /// An object or a list.
+    Brackets,
+    /// A comment.
+    Comment,
+}
+
+/// A part of a text that can be folded.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fold {
+    /// Its bytes.
+    pub span: Range<usize>,
+    /// Its kind.
+    pub kind: FoldKind,
+}

@@ -97,8 +97,8 @@ pub fn element_owner(m: &Model, FieldKey(f): FieldKey, first: usize, count: usiz
     (first + count.max(1) <= start + length).then_some((kind, object))
 }
 
-/// The description of an element: `joint "light_free" (free): z position, m`.
-pub(super) fn help(m: &Model, f: FieldId, index: usize) -> Option<String> {
+/// The description of an element with its unit: `joint "light_free" (free): z position, m`.
+pub(super) fn help(m: &Model, f: FieldId, index: usize, unit: &str) -> Option<String> {
     let (kind, object) = owner(m, f, index)?;
     let (first, count) = row(m, f, kind, object)?;
     let noun = super::handle::KINDS.iter().find(|(k, _)| *k == kind).map_or("object", |(_, noun)| noun);
@@ -131,7 +131,7 @@ pub(super) fn help(m: &Model, f: FieldId, index: usize) -> Option<String> {
         4 if info.name.contains("quat") => format!(" quaternion {}", ["w", "x", "y", "z"].get(at)?),
         _ => format!(" number {at}"),
     };
-    let unit = if f.unit().is_empty() { String::new() } else { format!(", {}", f.unit()) };
+    let unit = if unit.is_empty() { String::new() } else { format!(", {unit}") };
     Some(format!("{noun} {name}:{part} of {}{unit}", f.doc()))
 }
 

@@ -2,8 +2,17 @@
 
 use labspec_expr::HostTerms;
 
+/// The terms of a claim about runs, for messages of the language.
+pub static CLAIM_TERMS: HostTerms = HostTerms {
+    names: "the runs, and the measures of the only run",
+    own_number: "write it under `measure`, and read it of a run: `run.{name}`",
+    ..LAB
+};
+
 /// The terms of a lab, for messages of the language.
-pub static HOST_TERMS: HostTerms = HostTerms {
+pub static HOST_TERMS: HostTerms = LAB;
+
+const LAB: HostTerms = HostTerms {
     lab: "lab",
     lesson: "lesson",
     world: "simulation",
@@ -25,6 +34,7 @@ pub static HOST_TERMS: HostTerms = HostTerms {
         "give the control a `param` and read it as `ctx.<param>`",
     ),
     store: "store it first, as `ctx.{name} = 0` in `setup`, or give a control `\"param\": \"{name}\"`",
+    own_number: "store it as `ctx.{name} = …` in `setup`, and read `ctx.{name}` here",
     rounding: ", or set `digits` of the readout",
     recompute: "`mj_setConst`",
 };

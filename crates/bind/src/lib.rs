@@ -30,7 +30,7 @@ pub use embedded::Functions;
 pub use engine::{Engine, Expression, Statements};
 pub use error::Error;
 pub use field_entry::named_field;
-pub use host_terms::HOST_TERMS;
+pub use host_terms::{CLAIM_TERMS, HOST_TERMS};
 pub use labspec_expr::Value;
 pub use names::{ModelNames, Scope};
 pub use world::{NUMBERS, Playback, World};

@@ -11,6 +11,9 @@ use labspec_expr::dimension::{Dimension, Measure};
 /// The maximum number of elements that are analysed one by one; the dimension of a larger part of a field is unknown.
 const MAX_ELEMENTS: usize = 4096;
 
+/// The maximum number of elements for which one unit is searched among several.
+const MAX_UNIT_ELEMENTS: usize = 256;
+
 /// Whether a motion is a translation or a rotation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum MotionKind {
@@ -36,6 +39,25 @@ pub(super) fn measure(m: &Model, f: FieldId, first: usize, count: Option<usize>)
     let mut all = (first..last).map(|at| element(m, f, &shape, at));
     let start = all.next().unwrap_or_default();
     all.fold(start, |common, next| if common == next { common } else { Measure::Unknown })
+}
+
+/// The unit of a range of elements: where the field's row has several, or none because the object decides, the one that is
+/// certain for all of these elements. Empty if they have no unit.
+pub(super) fn unit(m: &Model, f: FieldId, first: usize, count: Option<usize>) -> String {
+    let declared = f.unit();
+    let is_open = declared.contains(" or ") || declared.contains(", ");
+    let of_objects = declared.is_empty() && [data::sensordata, data::ctrl].contains(&f);
+    if !(is_open || of_objects) || count.is_some_and(|count| count > MAX_UNIT_ELEMENTS) {
+        return declared.to_string();
+    }
+    let Measure::Known(dimension) = measure(m, f, first, count) else { return declared.to_string() };
+    let parts = declared.split(" or ").flat_map(|part| part.split(", "));
+    let mut same = parts.filter(|part| units::parse(part) == Some(dimension));
+    match same.next() {
+        Some(part) => part.to_string(),
+        None if dimension.is_number() => String::new(),
+        None => units::written(&dimension),
+    }
 }
 
 /// The dimension of one element.

@@ -16,6 +16,7 @@ use labspec_expr::{
     CollectionId, Entry, Field, FieldKey, FunctionId, FunctionInfo, HostTerms, ObjectId, ResultDimension,
     Role, Schema, Value,
 };
+use labspec_finding::ranked;
 
 /// The context of a program, which decides which functions exist.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,6 +40,41 @@ pub struct ModelNames<'m> {
     functions: Option<&'m Functions>,
     /// Displayed labels, if there are any.
     displayed: Option<&'m DisplayedLabels>,
+}
+
+/// The largest distance of a misspelt name from the intended one, in tenths of an edit.
+const SLIP: usize = 21;
+
+impl ModelNames<'_> {
+    /// The advice for a field of joints that is read of a body: the joints of the body. `index` is what follows the field.
+    fn joint_hint(&self, body: usize, name: &str, index: Option<usize>) -> Option<String> {
+        if !["qpos", "qvel", "qacc", "damping", "stiffness", "range"].contains(&name) {
+            return None;
+        }
+        let object = if name.starts_with('q') { "data" } else { "model" };
+        let is_of_body = |owner: &i32| usize::try_from(*owner) == Ok(body);
+        let Some(joint) = self.model.jnt_bodyid.iter().position(is_of_body) else {
+            return Some(format!("joints have `{name}`, and this body has none: it is fixed to its parent"));
+        };
+        let index = index.unwrap_or(0);
+        let named = self.model.names.joint.get(joint).filter(|joint| !joint.is_empty());
+        if let Some(joint) = named {
+            return Some(format!("joints have `{name}`: write `{object}.joint('{joint}').{name}[{index}]`"));
+        }
+        let naming =
+            format!("give the joint of this body a name, and write `{object}.joint('NAME').{name}[{index}]`");
+        let first = match name {
+            "qpos" => self.model.jnt_qposadr.get(joint),
+            "qvel" | "qacc" => self.model.jnt_dofadr.get(joint),
+            _ => None,
+        };
+        Some(match first.and_then(|first| usize::try_from(*first).ok()) {
+            Some(first) => {
+                format!("joints have `{name}`: write `data.{name}[{}]`, or {naming}", first + index)
+            }
+            None => format!("joints have `{name}`: {naming}"),
+        })
+    }
 }
 
 impl<'m> ModelNames<'m> {
@@ -304,7 +340,16 @@ impl Schema for ModelNames<'_> {
     }
 
     fn element_help(&self, FieldKey(f): FieldKey, index: usize) -> Option<String> {
-        elements::help(self.model, FieldId::new(f as usize)?, index)
+        let field = FieldId::new(f as usize)?;
+        elements::help(self.model, field, index, &measures::unit(self.model, field, index, Some(1)))
+    }
+
+    fn unit(&self, field: &Field, element: Option<usize>) -> String {
+        let Some(f) = FieldId::new(field.key.0 as usize) else { return field.unit.clone() };
+        match element {
+            Some(i) => measures::unit(self.model, f, field.first + i, Some(1)),
+            None => measures::unit(self.model, f, field.first, field.len()),
+        }
     }
 
     fn gives(&self, FunctionId(f): FunctionId, first: Option<f64>) -> ResultDimension {
@@ -358,10 +403,16 @@ impl Schema for ModelNames<'_> {
         functions::INFO.get(at).cloned().or_else(embedded).unwrap_or_else(functions::none)
     }
 
-    fn hint(&self, object: ObjectId, name: &str) -> Option<String> {
+    fn hint(&self, object: ObjectId, name: &str, index: Option<usize>) -> Option<String> {
         let here = match handle::decode(object)? {
             HandleTarget::Struct(owner) => owner,
+            HandleTarget::Named(_, Obj::Body, body) => return self.joint_hint(body, name, index),
             HandleTarget::Functions(_) if name.starts_with("mj_") => {
+                // A misspelt name of a function that exists.
+                let names = self.member_names(object);
+                if ranked(name, names.iter().map(String::as_str)).is_some_and(|(cost, _)| cost <= SLIP) {
+                    return None;
+                }
                 return Some(format!("`{name}` is a function of MuJoCo that labspec does not offer yet"));
             }
             _ => return None,

@@ -91,7 +91,11 @@ impl Cache {
             let why = other.lab.as_ref().err().map_or("", String::as_str);
             [other.path.as_bytes(), other.text.as_bytes(), why.as_bytes()]
         });
-        digest::hex_of(&inputs.into_iter().chain(others).collect::<Vec<_>>())
+        let data = lesson.data.iter().flat_map(|file| {
+            let text = file.text.as_deref().unwrap_or_else(|why| why);
+            [file.path.as_os_str().as_encoded_bytes(), text.as_bytes()]
+        });
+        digest::hex_of(&inputs.into_iter().chain(others).chain(data).collect::<Vec<_>>())
     }
 
     fn load(&self, slot: &str) -> Option<String> {

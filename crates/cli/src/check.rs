@@ -22,9 +22,12 @@ use std::path::{Path, PathBuf};
 /// Arguments of `check` and `verify`.
 #[derive(clap::Args, Debug)]
 pub(super) struct VerifyArguments {
-    /// Lessons (.md), labs and quizzes (.json), models (.xml), or folders of lessons
-    #[arg(required = true, value_name = "PATH")]
+    /// Lessons (.md), labs and quizzes (.json), models (.xml), or folders of lessons [default: the current folder]
+    #[arg(value_name = "PATH", default_value = ".", hide_default_value = true)]
     paths: Vec<PathBuf>,
+    /// Print only the last line, with the counts and the conclusion
+    #[arg(short, long, conflicts_with = "format")]
+    quiet: bool,
     #[command(flatten)]
     models: ModelOptions,
     /// Output format
@@ -152,7 +155,7 @@ fn run_check(
         with_curves: paths.html.is_some(),
         jobs: a.jobs.map_or_else(processors, NonZeroUsize::get),
         progress: is_human && std::io::stderr().is_terminal(),
-        findings_in_color: (is_human && !a.statistics).then(|| a.color.on()),
+        findings_in_color: (is_human && !a.statistics && !a.quiet).then(|| a.color.on()),
     };
     let output = OutputOptions {
         paths: &a.paths,
@@ -160,6 +163,7 @@ fn run_check(
         color: a.color,
         with_evidence,
         statistics: a.statistics,
+        quiet: a.quiet,
         show_allowed: a.show_allowed,
         new_baseline: a.baseline.as_deref().filter(|_| a.update_baseline),
         judge_request: a.judge_request.as_deref(),

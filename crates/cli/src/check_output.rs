@@ -14,7 +14,7 @@ use super::{judge, reproduction, since};
 use clap::ValueEnum;
 use labspec::ledger::{self, Entry, State, Subject};
 use labspec::report::html::Material;
-use labspec::report::{self, printable_path};
+use labspec::report::{self, printable_lines, printable_path};
 use labspec::source::SourceFile;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -53,6 +53,8 @@ pub(super) struct OutputOptions<'a> {
     /// Whether the command is `verify`, which prints the evidence of every claim.
     pub(super) with_evidence: bool,
     pub(super) statistics: bool,
+    /// Whether only the summary is printed.
+    pub(super) quiet: bool,
     pub(super) show_allowed: bool,
     /// The baseline to write.
     pub(super) new_baseline: Option<&'a Path>,
@@ -85,6 +87,7 @@ pub(super) fn report_results(
         .map(|(file, old)| (*file, since::changes(old, &reproduction::current(file, results))));
     match options.format {
         _ if options.statistics => print(&report::statistics(&results.findings))?,
+        CheckFormat::Human if options.quiet => print(&format!("{}\n", format_summary(results)))?,
         CheckFormat::Human => print(&human_text(options, outcome, results, &sources, changes.as_ref()))?,
         CheckFormat::Json => {
             let mut report = check_report(outcome, results, &sources);
@@ -94,7 +97,10 @@ pub(super) fn report_results(
         }
         CheckFormat::Concise => print(&report::concise(&results.findings, &sources))?,
         CheckFormat::Jsonl => print(&report::jsonl(&results.findings, &sources))?,
-        CheckFormat::Github => print(&report::github(&results.findings, &sources))?,
+        CheckFormat::Github => {
+            let annotations = report::github(&results.findings, &sources);
+            print(&format!("{annotations}{}\n", printable_lines(&format_summary(results))))?;
+        }
         CheckFormat::Gitlab => print_json(&report::gitlab(&results.findings, &sources), true)?,
         CheckFormat::Sarif => print_json(&report::sarif(&results.findings, &sources), true)?,
         CheckFormat::Junit => print(&report::junit(&results.ledger, &results.findings, &sources))?,
@@ -118,13 +124,20 @@ fn overall_outcome(options: &OutputOptions<'_>, results: &CourseResults) -> ledg
     }
 }
 
-/// Writes the requested files. After Ctrl-C, only the baseline is written.
+/// Writes the requested files; none after Ctrl-C.
 fn write_files(
     options: &OutputOptions<'_>,
     results: &CourseResults,
     sources: &[&SourceFile],
 ) -> Result<(), Failure> {
     if let Some(file) = options.new_baseline {
+        // Without the findings of the other files, the baseline would forget them.
+        if interrupted() {
+            return Err(format!(
+                "{} is not changed, because the check was interrupted",
+                printable_path(file)
+            ));
+        }
         Baseline::new(file).write(file, &results.findings, sources)?;
     }
     if let Some(file) = options.record.filter(|_| !interrupted()) {
@@ -190,11 +203,12 @@ fn command_outcome(
     let names = || options.paths.iter().map(|p| printable_path(p)).collect::<Vec<_>>().join(", ");
     match outcome {
         ledger::Outcome::Findings => Ok(CommandOutcome::Findings),
-        ledger::Outcome::Nothing if results.ledger.outcome() == ledger::Outcome::Clean => {
-            Err(format!("{} has nothing to verify: no question and no lab has a `verify` object", names()))
-        }
+        ledger::Outcome::Nothing if results.ledger.outcome() == ledger::Outcome::Clean => Err(format!(
+            "there is nothing to verify in {}: no question and no lab has a `verify` object",
+            names()
+        )),
         ledger::Outcome::Nothing => {
-            Err(format!("{} has nothing to check: no lab, no question and no model", names()))
+            Err(format!("there is nothing to check in {}: no lab, no question and no model", names()))
         }
         ledger::Outcome::Partial => Ok(CommandOutcome::Partial),
         ledger::Outcome::Clean | ledger::Outcome::Known

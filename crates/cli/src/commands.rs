@@ -7,8 +7,8 @@ use super::output::write_file;
 use super::output_kind::OutputKind;
 use super::stdio::{self, print_error};
 use super::{
-    build, check, completions, developer, explain, fmt, init, plan, precision, preview, run, scaffold,
-    schema, snapshot, stability, trace,
+    build, check, completions, config, developer, explain, fmt, init, plan, precision, preview, run,
+    scaffold, schema, snapshot, stability, trace,
 };
 use clap::{CommandFactory, Parser, Subcommand};
 use labspec::interrupt;
@@ -54,6 +54,8 @@ enum Command {
     Trace(trace::TraceArguments),
     /// Propose a first, tested `verify` object for every question and lab that has none
     Scaffold(scaffold::ScaffoldArguments),
+    /// Show the settings that hold for a lesson or a folder, and where they come from
+    Config(config::ConfigArguments),
     /// Explain the code of a finding, with an example; without a code, list all codes
     Explain(explain::ExplainArguments),
     /// Print the JSON Schema of labs and quizzes, for editors: lab, quiz, or lesson for a JSON file of both
@@ -94,7 +96,7 @@ pub(crate) fn run_program() -> ExitCode {
         Ok(CommandOutcome::Partial) => ExitCode::from(3),
         Err(message) => {
             print_error(&format!("labspec: {}\n", printable_lines(&message)));
-            ExitCode::from(2)
+            ExitCode::from(if interrupted() { 130 } else { 2 })
         }
     }
 }
@@ -129,6 +131,7 @@ fn execute(command: &Command) -> Result<CommandOutcome, Failure> {
         Command::Plan(a) => plan::plan(a),
         Command::Trace(a) => trace::trace(a),
         Command::Scaffold(a) => scaffold::scaffold(a),
+        Command::Config(a) => config::config(a),
         Command::Explain(a) => explain::explain(a),
         Command::Schema(a) => schema::schema(a),
         #[cfg(feature = "lsp")]
@@ -184,7 +187,7 @@ fn usage(e: &clap::Error) -> ExitCode {
 /// Writes the reference pages and schemas.
 fn write_reference(folder: &std::path::Path) -> Result<CommandOutcome, Failure> {
     let schemas = folder.parent().unwrap_or(folder).join("schema");
-    for folder in [folder, &schemas] {
+    for folder in [folder, &folder.join("rules"), &schemas] {
         std::fs::create_dir_all(folder)
             .map_err(|e| format!("cannot make {}: {e}", printable_path(folder)))?;
     }

@@ -66,6 +66,8 @@ pub(super) struct CourseResults {
     pub(super) suppressed: SuppressedFindings,
     /// Files with findings, in addition to the lessons.
     pub(super) sources: Vec<SourceFile>,
+    /// The number of files that were checked before Ctrl-C, and the number of all; `None` without Ctrl-C.
+    pub(super) checked_before_interrupt: Option<(usize, usize)>,
     /// All files on which the results depend, and the folders of models.
     pub(super) dependencies: BTreeSet<PathBuf>,
 }

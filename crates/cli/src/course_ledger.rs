@@ -3,6 +3,7 @@
 use super::common::Failure;
 use super::course::CourseResults;
 use super::policy::Policies;
+use super::widgets::PageWidget;
 use labspec::check;
 use labspec::finding::{Finding, Severity};
 use labspec::ledger::{Entry, Evidence, Ledger, State, Subject};
@@ -48,13 +49,14 @@ fn accept_page_widgets(
     results: &CourseResults,
     policies: &mut Policies,
 ) -> Result<(), Failure> {
-    let mut of_pages: BTreeMap<Arc<str>, Vec<String>> = BTreeMap::new();
+    let mut of_pages: BTreeMap<Arc<str>, Vec<PageWidget>> = BTreeMap::new();
     for c in results.checked.iter().filter(|c| !c.lesson.widgets.is_empty()) {
         let path = c.lesson.file.path();
         of_pages.insert(path.clone(), policies.policy_for(Path::new(&**path))?.widgets);
     }
-    let has =
-        |path: &Arc<str>, name: &str| of_pages.get(path).is_some_and(|all| all.iter().any(|w| w == name));
+    let has = |path: &Arc<str>, name: &str| {
+        of_pages.get(path).is_some_and(|all| all.iter().any(|w| w.name == name))
+    };
     ledger.accept_widgets(has);
     Ok(())
 }

@@ -5,7 +5,6 @@ use super::collect::ListedFile;
 use super::common::{Failure, interrupted};
 use super::course::{CheckRequest, CrossCheckRequest, SuppressedFindings};
 use super::digest;
-use super::stdio::show_progress;
 use super::target::{model_folder_within, root};
 use labspec::bind::parts::Hash;
 use labspec::bind::scene::{Models, check_model_file};
@@ -118,9 +117,6 @@ pub(super) fn check_file(
             return FileOutcome::Interrupted;
         }
         let (path, named) = file;
-        if request.progress {
-            show_progress(&format!("checking {}", printable_path(path)));
-        }
         match task {
             FileTask::Refuse(why) => FileOutcome::Refused(why.clone()),
             FileTask::CheckModel(root) => {

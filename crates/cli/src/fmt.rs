@@ -8,9 +8,9 @@ use super::output_kind::OutputKind;
 use super::stdio::print;
 use super::target::model_folder;
 use labspec::bind::scene::Models;
-use labspec::format;
-use labspec::lint::{load_lesson_at, reload_lesson};
-use labspec::report::printable_path;
+use labspec::format::{MeaningChanged, format_checked};
+use labspec::lint::load_lesson_at;
+use labspec::report::{counted, printable_path};
 use labspec::source::{SourceFile, Sources};
 use std::path::{Path, PathBuf};
 
@@ -65,19 +65,20 @@ fn one(a: &FmtArguments, path: &Path, named: bool) -> Result<Option<String>, Fai
         return Ok(None);
     }
     let mut models = Models::new(folder.clone());
-    let done = format::format(&lesson, a.modernize.then_some(&mut models));
-    if done.changed == 0 {
+    // The formatted text is parsed again before the file is replaced.
+    let done =
+        format_checked(&lesson, &folder, a.modernize.then_some(&mut models)).map_err(|MeaningChanged| {
+            format!(
+                "{} is unchanged: formatting would change its meaning; please report this lesson",
+                printable_path(path)
+            )
+        })?;
+    if done.edits.is_empty() {
         return Ok(None);
     }
-    // The formatted text is parsed again before the file is replaced.
-    let again = reload_lesson(&lesson, &done.text, &folder);
-    if !format::is_equivalent(&lesson, &again) {
-        return Err(format!(
-            "{} is unchanged: formatting would change its meaning; please report this lesson",
-            printable_path(path)
-        ));
-    }
-    let checked_texts = format!("{} of {} texts", done.changed, done.total);
+    let texts = (done.changed > 0).then(|| format!("{} of {} texts", done.changed, done.total));
+    let blocks = (done.laid_out > 0).then(|| format!("the layout of {}", counted(done.laid_out, "block")));
+    let checked_texts = texts.into_iter().chain(blocks).collect::<Vec<_>>().join(" and ");
     if a.check {
         return Ok(Some(format!("{checked_texts} would change")));
     }

@@ -10,7 +10,7 @@ use labspec::check::{ReferenceRecording, file_name};
 use labspec::report::printable_lines;
 use labspec::report::{nonfinite, printable_path, to_value};
 use labspec::source::read_text;
-use labspec::verify::judge::{RecordedRun, RunTask, Unjudged, format_value};
+use labspec::verify::judge::{Difference, RecordedRun, RunTask, Unjudged};
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -65,6 +65,8 @@ struct RecordingRow {
     hash: ParsedField<String>,
     values: ParsedField<BTreeMap<String, ParsedField<RecordedNumber>>>,
     refused: ParsedField<BTreeMap<String, ParsedField<String>>>,
+    #[serde(rename = "nan")]
+    without_value: ParsedField<BTreeMap<String, ParsedField<String>>>,
     warnings: Option<ParsedField<usize>>,
     broke: Option<ParsedField<String>>,
 }
@@ -124,6 +126,11 @@ struct DifferenceRow<'c> {
     theirs: f64,
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     nonfinite: BTreeMap<&'c str, &'c str>,
+    /// Why one of them is NaN.
+    #[serde(rename = "reason", skip_serializing_if = "Option::is_none")]
+    no_value: Option<&'c str>,
+    #[serde(skip)]
+    difference: &'c Difference,
 }
 
 #[derive(Serialize)]
@@ -221,6 +228,10 @@ fn recorded(row: &RecordingRow) -> Result<RecordedRun, String> {
         let why = why.valid().ok_or_else(|| format!("the reason for refusing \"{name}\" is not a text"))?;
         recorded.refused.insert(name.clone(), why.clone());
     }
+    for (name, why) in row.without_value.valid().into_iter().flatten() {
+        let why = why.valid().ok_or_else(|| format!("the reason why \"{name}\" is NaN is not a text"))?;
+        recorded.without_value.insert(name.clone(), why.clone());
+    }
     if let Some(n) = &row.warnings {
         recorded.warnings = *n.valid().ok_or("its \"warnings\" is not a count")?;
     }
@@ -242,10 +253,21 @@ impl<'c> JudgeReport<'c> {
                 all.compared += judged.compared;
                 all.verdicts += judged.claims;
                 all.turned += judged.turned;
-                all.differing.extend(judged.differing.iter().map(|(measure, ours, theirs)| {
+                all.differing.extend(judged.differing.iter().map(|difference| {
+                    let Difference { name: measure, ours, theirs, no_value } = difference;
                     let both = [("ours", *ours), ("theirs", *theirs)].into_iter();
                     let nonfinite = both.filter_map(|(key, x)| Some((key, nonfinite(x)?))).collect();
-                    DifferenceRow { file: file(), owner, measure, ours: *ours, theirs: *theirs, nonfinite }
+                    let no_value = no_value.as_deref();
+                    DifferenceRow {
+                        file: file(),
+                        owner,
+                        measure,
+                        ours: *ours,
+                        theirs: *theirs,
+                        nonfinite,
+                        no_value,
+                        difference,
+                    }
                 }));
                 let unjudged = judged.unjudged.iter();
                 all.unjudged.extend(unjudged.map(|(measure, reason)| UnjudgedRow {
@@ -294,9 +316,8 @@ pub(super) fn summary(file: &Path, engine: &str, results: &CourseResults) -> Str
     }
     text.push_str(&left);
     text.push('\n');
-    for DifferenceRow { file, owner, measure, ours, theirs, .. } in &all.differing {
-        let [ours, theirs] = [*ours, *theirs].map(format_value);
-        let _ = writeln!(text, "  differs    {file}, {owner}: `{measure}` is {ours} here but {theirs} there");
+    for DifferenceRow { file, owner, difference, .. } in &all.differing {
+        let _ = writeln!(text, "  differs    {file}, {owner}: {}", difference.describe());
     }
     let mut reasons: BTreeMap<&str, usize> = BTreeMap::new();
     for unjudged in &all.unjudged {

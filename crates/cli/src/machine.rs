@@ -246,7 +246,7 @@ fn claim<'a>(claim: &'a Claim, c: &Checked) -> ClaimRow<'a> {
             .map(|e| ClosedFormRow { trace: &e.trace, state: key(e.state.as_str()), reason: &e.remark })
             .collect(),
         runs: run
-            .map(|r| RunRow { name: &r.name, broke: r.broke.as_deref(), expected: r.expected })
+            .map(|r| RunRow { name: &r.name, broke: r.broke.as_deref(), expected: r.is_break_expected() })
             .collect(),
         measures: object(j.measures.iter().map(|m| (m.name.clone(), MeasureRow::new(m)))),
     }

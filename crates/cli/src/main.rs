@@ -10,6 +10,7 @@ mod collect;
 mod commands;
 mod common;
 mod completions;
+mod config;
 mod course;
 mod course_ledger;
 mod developer;
@@ -19,6 +20,7 @@ mod file_check;
 mod fix;
 mod fmt;
 mod init;
+mod json_schema;
 mod judge;
 mod lab_args;
 #[cfg(feature = "lsp")]
@@ -34,6 +36,7 @@ mod precision;
 mod preview;
 mod report_json;
 mod reproduction;
+mod routes;
 mod run;
 mod scaffold;
 mod scheduler;
@@ -45,6 +48,7 @@ mod stdio;
 mod target;
 mod trace;
 mod watch;
+mod widgets;
 
 fn main() -> std::process::ExitCode {
     commands::run_program()

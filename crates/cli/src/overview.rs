@@ -2,7 +2,7 @@
 
 use super::course::CourseResults;
 use labspec::check::{self, Checked};
-use labspec::ledger::{Entry, State, Subject};
+use labspec::ledger::{Entry, Ledger, State, Subject};
 use labspec::report::counted;
 use labspec::report::{Summary, concise, printable};
 use labspec::source::SourceFile;
@@ -10,26 +10,50 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::sync::Arc;
 
-/// What was run and verified in each lesson. True claims share a line; each other claim has its own line with the reason.
+/// What was run and verified in each lesson. True claims share a line; each other claim has its own line with the reason. In a
+/// course of several lessons, one whose claims are all true has one line with their numbers.
 pub(super) fn format_overview(results: &CourseResults, with_evidence: bool) -> String {
     let mut text = String::new();
     let mut by_path: BTreeMap<&Arc<str>, Vec<&Entry>> = BTreeMap::new();
     for entry in results.ledger.entries().iter().filter(|e| e.subject != Subject::File) {
         by_path.entry(&entry.path).or_default().push(entry);
     }
+    let mut clean = Vec::new();
     for c in &results.checked {
         let path = c.lesson.file.path();
         let Some(entries) = by_path.get(path) else { continue };
+        if !with_evidence && results.checked.len() > 1 && entries.iter().all(|e| is_good(e)) {
+            let of_lesson = Ledger::from_iter(entries.iter().map(|e| (*e).clone()));
+            clean.push((printable(path).into_owned(), of_lesson.summary()));
+            continue;
+        }
         let _ = writeln!(text, "{}", printable(path));
         write_lesson(&mut text, c, entries, with_evidence);
+        text.push('\n');
+    }
+    let width = clean.iter().map(|(path, _)| path.chars().count()).max().unwrap_or(0).min(MAX_PATH);
+    for (path, counts) in &clean {
+        let _ = writeln!(text, "{path:<width$}  {counts}");
+    }
+    if !clean.is_empty() {
         text.push('\n');
     }
     text
 }
 
+/// The maximum width of the column of paths, in characters.
+const MAX_PATH: usize = 50;
+
+/// Whether a claim needs no line of its own in a course with several lessons.
+fn is_good(entry: &Entry) -> bool {
+    matches!(entry.state, State::True(_))
+}
+
 /// Writes the claims of a lesson, its snapshots, and the evidence of claims.
 fn write_lesson(text: &mut String, c: &Checked, entries: &[&Entry], with_evidence: bool) {
     let mut written = 0;
+    // Objects that use another one have its measures.
+    let mut listed: Vec<Vec<String>> = Vec::new();
     while let Some(entry) = entries.get(written) {
         let count = joined_entries(&entries[written..]);
         written += count;
@@ -46,8 +70,14 @@ fn write_lesson(text: &mut String, c: &Checked, entries: &[&Entry], with_evidenc
         let is_last = is_last && entry.subject != Subject::Snapshot;
         let claim = c.claims.iter().find(|claim| is_last && claim.name == entry.owner);
         let claim = claim.filter(|claim| with_evidence || claim.is_doubtful());
-        for evidence in claim.into_iter().flat_map(check::evidence) {
-            let _ = writeln!(text, "  {:<10}   {}", "", printable(&evidence));
+        if let Some(claim) = claim {
+            let measures = check::measure_lines(claim);
+            let is_new = measures.is_empty() || !listed.contains(&measures);
+            let measured: &[String] = if is_new { &measures } else { &[] };
+            for evidence in measured.iter().chain(&check::option_lines(claim)) {
+                let _ = writeln!(text, "  {:<10}   {}", "", printable(evidence));
+            }
+            listed.push(measures);
         }
     }
 }
@@ -104,7 +134,11 @@ pub(super) fn format_summary(results: &CourseResults) -> String {
     let found = Summary::count(&results.findings);
     let found = if results.findings.is_empty() { String::new() } else { found.to_string() };
     let judgement = results.ledger.conclusion(&found);
-    format!("{}: {judgement}{}", results.ledger.summary(), format_suppressed(results))
+    let interrupted = match results.checked_before_interrupt {
+        Some((checked, all)) => format!("interrupted: {checked} of {all} files checked; "),
+        None => String::new(),
+    };
+    format!("{interrupted}{}: {judgement}{}", results.ledger.summary(), format_suppressed(results))
 }
 
 /// The number of suppressed findings.

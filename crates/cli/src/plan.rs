@@ -42,7 +42,7 @@ pub(super) fn plan(a: &PlanArguments) -> Result<CommandOutcome, Failure> {
     let target = target::open(&a.lab, &a.models)?;
     let options = PlanOptions { read: a.read.clone(), run: !a.no_run };
     let report = labspec_numerics::profile::plan(&target.lab, &target.model, &target.programs, &options)
-        .map_err(|e| e.0)?;
+        .map_err(|e| e.to_string())?;
     match a.format {
         PlanFormat::Human => print(&human(&report))?,
         PlanFormat::Json => print_report("plan", &machine(&report))?,

@@ -1,6 +1,8 @@
 //! Which findings are reported, and with which severity, according to the command line and the nearest `labspec.toml`.
 
 use super::common::Failure;
+use super::routes::Routes;
+use super::widgets::{self, PageWidget};
 use ignore::gitignore::{Gitignore, GitignoreBuilder};
 use labspec::finding::{Finding, Severity};
 use labspec::report::{printable, printable_path};
@@ -103,12 +105,15 @@ pub(super) struct Policy {
     ignore: RuleSet,
     deny: RuleSet,
     /// Additional widgets that the page provides.
-    pub(super) widgets: Vec<String>,
+    pub(super) widgets: Vec<PageWidget>,
+    /// The files of the pages of a single-page site.
+    pub(super) routes: Routes,
 }
 
 impl Policy {
     /// Removes the ignored findings and returns them; the others get the severity of the policy.
     pub(super) fn apply(&self, findings: &mut Vec<Finding>) -> Vec<Finding> {
+        self.routes.resolve(findings);
         let mut ignored = Vec::new();
         findings.retain(|f| {
             let reported = (self.select.is_empty() || self.select.holds(f)) && !self.ignore.holds(f);
@@ -127,12 +132,32 @@ impl Policy {
 /// The content of one settings file.
 #[derive(Debug, Default)]
 struct PolicyFile {
+    path: PathBuf,
     select: Vec<String>,
     ignore: Vec<String>,
     deny: Vec<String>,
-    widgets: Vec<String>,
-    /// For some paths: the rules that are ignored there, and the rules that are errors there.
-    paths: Vec<(Globs, Vec<String>, Vec<String>)>,
+    widgets: Vec<PageWidget>,
+    routes: Routes,
+    paths: Vec<PathSettings>,
+}
+
+/// Settings for some paths.
+#[derive(Debug)]
+struct PathSettings {
+    patterns: Vec<String>,
+    globs: Globs,
+    /// The rules that are ignored there.
+    ignore: Vec<String>,
+    /// The rules that are errors there.
+    deny: Vec<String>,
+}
+
+/// A setting that holds for a file: its value, and where it comes from.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) struct EffectiveSetting {
+    pub(super) name: &'static str,
+    pub(super) value: String,
+    pub(super) origin: String,
 }
 
 /// Patterns of paths as in `.gitignore`, relative to the folder of the settings.
@@ -174,17 +199,61 @@ impl Policies {
         let near = settings.as_deref().unwrap_or(&none);
         let options = &self.options;
         let select = if options.select.is_empty() { &near.select } else { &options.select };
-        let here = || near.paths.iter().filter(|(globs, ..)| globs.hold(&whole));
-        let ignore =
-            near.ignore.iter().chain(here().flat_map(|(_, ignore, _)| ignore)).chain(&options.ignore);
-        let deny = near.deny.iter().chain(here().flat_map(|(.., deny)| deny)).chain(&options.deny);
+        let here = || near.paths.iter().filter(|paths| paths.globs.hold(&whole));
+        let ignore = near.ignore.iter().chain(here().flat_map(|paths| &paths.ignore)).chain(&options.ignore);
+        let deny = near.deny.iter().chain(here().flat_map(|paths| &paths.deny)).chain(&options.deny);
         let widgets = near.widgets.clone();
         Ok(Policy {
             select: RuleSet::parse(select)?,
             ignore: RuleSet::parse(ignore)?,
             deny: RuleSet::parse(deny)?,
             widgets,
+            routes: near.routes.clone(),
         })
+    }
+
+    /// The settings that hold for a file, each with its origin, and the settings file.
+    ///
+    /// # Errors
+    /// The settings that apply to it cannot be read.
+    pub(super) fn effective(
+        &mut self,
+        path: &Path,
+    ) -> Result<(Option<PathBuf>, Vec<EffectiveSetting>), Failure> {
+        // A wrong setting is an error here, too.
+        self.policy_for(path)?;
+        let whole = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
+        let folder = if whole.is_dir() { Some(whole.as_path()) } else { whole.parent() };
+        let settings = match &self.given {
+            Some(given) => Some(given.clone()),
+            None => self.nearest_settings(folder)?,
+        };
+        let none = PolicyFile::default();
+        let near = settings.as_deref().unwrap_or(&none);
+        let file = near.path.file_name().map_or(String::new(), |name| name.to_string_lossy().into_owned());
+        let mut all = Vec::new();
+        let mut add = |name: &'static str, values: &[String], origin: &str| {
+            let one =
+                |value: &String| EffectiveSetting { name, value: value.clone(), origin: origin.to_string() };
+            all.extend(values.iter().map(one));
+        };
+        let command = "command line";
+        match self.options.select.is_empty() {
+            true => add("select", &near.select, &file),
+            false => add("select", &self.options.select, command),
+        }
+        let here: Vec<(&PathSettings, String)> = (near.paths.iter().filter(|paths| paths.globs.hold(&whole)))
+            .map(|paths| (paths, format!("{file}, [[paths]] {}", paths.patterns.join(" "))))
+            .collect();
+        add("ignore", &near.ignore, &file);
+        here.iter().for_each(|(paths, origin)| add("ignore", &paths.ignore, origin));
+        add("ignore", &self.options.ignore, command);
+        add("deny", &near.deny, &file);
+        here.iter().for_each(|(paths, origin)| add("deny", &paths.deny, origin));
+        add("deny", &self.options.deny, command);
+        add("widgets", &near.widgets.iter().map(PageWidget::line).collect::<Vec<_>>(), &file);
+        add("routes", &near.routes.lines().collect::<Vec<_>>(), &file);
+        Ok((settings.as_ref().map(|settings| settings.path.clone()), all))
     }
 
     /// The settings of a folder: those in the folder, otherwise those of the nearest enclosing folder.
@@ -219,7 +288,7 @@ impl Globs {
 }
 
 /// The keys of settings, and of settings for some paths.
-const KEYS: [&str; 5] = ["select", "ignore", "deny", "widgets", "paths"];
+const KEYS: [&str; 6] = ["select", "ignore", "deny", "widgets", "routes", "paths"];
 const OF_PATHS: [&str; 3] = ["match", "ignore", "deny"];
 
 fn read(path: &Path) -> Result<PolicyFile, Failure> {
@@ -236,21 +305,21 @@ fn read(path: &Path) -> Result<PolicyFile, Failure> {
     reject_unknown_keys(&table, &KEYS).map_err(cannot)?;
     let list = |name: &str| string_list(&table, name, true).map_err(cannot);
     let (select, ignore, deny) = (list("select")?, list("ignore")?, list("deny")?);
-    let widgets = string_list(&table, "widgets", false).map_err(cannot)?;
     let folder = path.canonicalize().ok().and_then(|p| p.parent().map(Path::to_path_buf)).unwrap_or_default();
+    let widgets = widgets::read(&folder, table.get("widgets")).map_err(cannot)?;
+    let routes = Routes::read(&folder, table.get("routes")).map_err(cannot)?;
     let mut paths = Vec::new();
     for entry in of_paths(&table).map_err(cannot)? {
         reject_unknown_keys(entry, &OF_PATHS).map_err(cannot)?;
-        let globs = string_list(entry, "match", false)
-            .and_then(|patterns| match patterns.is_empty() {
-                true => Err("[[paths]] needs `match`, a list of patterns such as \"drafts/**\"".to_string()),
-                false => Globs::new(&folder, &patterns),
-            })
-            .map_err(cannot)?;
+        let patterns = string_list(entry, "match", false).map_err(cannot)?;
+        if patterns.is_empty() {
+            return Err(cannot("[[paths]] needs `match`, a list of patterns such as \"drafts/**\"".into()));
+        }
+        let globs = Globs::new(&folder, &patterns).map_err(cannot)?;
         let list = |name: &str| string_list(entry, name, true).map_err(cannot);
-        paths.push((globs, list("ignore")?, list("deny")?));
+        paths.push(PathSettings { patterns, globs, ignore: list("ignore")?, deny: list("deny")? });
     }
-    Ok(PolicyFile { select, ignore, deny, widgets, paths })
+    Ok(PolicyFile { path: path.to_path_buf(), select, ignore, deny, widgets, routes, paths })
 }
 
 /// The tables of `[[paths]]`; empty if there are none.

@@ -185,6 +185,13 @@ impl Backend for Author<'_> {
     }
 }
 
+/// The lesson with one proposal. `None` if the object would change the meaning of the lesson; it is then only displayed.
+fn with(lesson: &Lesson, one: &Scaffold, folder: &ModelFolder) -> Option<String> {
+    let text = written(lesson, std::slice::from_ref(one), std::slice::from_ref(&one.address));
+    let again = reload_lesson(lesson, &text, folder);
+    (again.verifies().count() == lesson.verifies().count() + 1).then_some(text)
+}
+
 /// A proposal for a lab or a question, with the lesson in which it is inserted.
 fn proposal(lesson: &Lesson, one: &Scaffold, folder: &ModelFolder) -> VerifyProposal {
     let (name, span) = (one.name.clone(), one.span.clone());
@@ -198,19 +205,15 @@ fn proposal(lesson: &Lesson, one: &Scaffold, folder: &ModelFolder) -> VerifyProp
     match &one.found {
         ScaffoldOutcome::Proposed { verify, values, undecided, verdict } => {
             let mut note = vec![measured(values)];
-            note.extend(
-                verdict
-                    .as_ref()
-                    .map(|(verdict, reason)| format!("a check says: {} {reason}", verdict.as_str())),
-            );
+            note.extend(verdict.as_ref().map(|(_, reason)| format!("the key holds {reason}")));
             note.extend(undecided.iter().map(|option| format!("option {option} is left open")));
             note.retain(|part| !part.trim().is_empty());
-            let text = written(lesson, std::slice::from_ref(one));
-            // The new text is parsed again: an object that would change its meaning is only displayed.
-            let again = reload_lesson(lesson, &text, folder);
-            let fits = again.verifies().count() == lesson.verifies().count() + 1;
-            let text = fits.then_some(text);
-            VerifyProposal { name, span, text: format_verify(verify), note: note.join("; "), lesson: text }
+            let (text, note) = (format_verify(verify), note.join("; "));
+            VerifyProposal { name, span, text, note, lesson: with(lesson, one, folder) }
+        }
+        ScaffoldOutcome::Skeleton { why, verify } => {
+            let (text, note) = (format_verify(verify), format!("not decided: {why}; a skeleton"));
+            VerifyProposal { name, span, text, note, lesson: with(lesson, one, folder) }
         }
         ScaffoldOutcome::Contradicted { option, values } => {
             let note =

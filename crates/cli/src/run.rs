@@ -85,11 +85,13 @@ pub(super) fn run(a: &RunArguments) -> Result<CommandOutcome, Failure> {
     files.extend(painted.iter().map(|path| PlannedOutput { kind: OutputKind::Picture, path: path.clone() }));
     a.handled.check_outputs_writable(&target, &files)?;
     let LabTarget { lab, model, programs } = &target;
-    let compared = stress::compared_runs(lab, model, programs, &options).map_err(|e| e.0)?;
+    let compared = stress::compared_runs(lab, model, programs, &options).map_err(|e| e.to_string())?;
     // What is written has a column for each integrator; what is printed is a table of them.
     let (lab, table) = match &compared {
         Some(runs) => stress::join_runs(lab, runs),
-        None => (lab.clone(), stress::watched_run(lab, model, programs, &options).map_err(|e| e.0)?),
+        None => {
+            (lab.clone(), stress::watched_run(lab, model, programs, &options).map_err(|e| e.to_string())?)
+        }
     };
     if let Some(file) = &a.csv {
         write_with(file, OutputKind::Table, |out| table.write_csv(out))?;

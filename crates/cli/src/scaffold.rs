@@ -12,11 +12,12 @@ use labspec::lint::{load_lesson_file, reload_lesson};
 use labspec::report::{printable, printable_lines, printable_path};
 use labspec::spec::Lesson;
 use labspec::verify::{Verdict, significant};
+use labspec_finding::nearest;
 use labspec_proposals::scaffold::{Scaffold, ScaffoldOutcome, scaffold as look, written};
 use labspec_proposals::trace::{ProposedVerify, format_verify};
 use serde::Serialize;
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Arguments of `scaffold`.
 #[derive(clap::Args, Debug)]
@@ -25,9 +26,10 @@ pub(super) struct ScaffoldArguments {
     lesson: PathBuf,
     #[command(flatten)]
     models: ModelOptions,
-    /// Insert the objects into the lesson; everything else stays unchanged
-    #[arg(long)]
-    write: bool,
+    /// Insert the objects into the lesson; everything else stays unchanged. With names such as `quiz-id.2` or `#1`, only those, and
+    /// also the skeletons of questions that are not decided
+    #[arg(long, num_args = 0.., value_name = "NAME")]
+    write: Option<Vec<String>>,
     /// Output format
     #[arg(long, value_enum, default_value = "human")]
     format: ScaffoldFormat,
@@ -49,9 +51,18 @@ pub(super) fn scaffold(a: &ScaffoldArguments) -> Result<CommandOutcome, Failure>
     if interrupted() {
         return Ok(CommandOutcome::Clean);
     }
-    let proposals = all.iter().filter(|one| matches!(one.found, ScaffoldOutcome::Proposed { .. })).count();
-    if a.write && proposals > 0 {
-        let text = written(&lesson, &all);
+    let names = a.write.as_deref().unwrap_or_default();
+    if let Some(unknown) = names.iter().find(|name| !all.iter().any(|one| one.address == **name)) {
+        return Err(unknown_name(&a.lesson, unknown, &all));
+    }
+    let is_written = |one: &&Scaffold| match one.found {
+        ScaffoldOutcome::Proposed { .. } => names.is_empty() || names.contains(&one.address),
+        ScaffoldOutcome::Skeleton { .. } => names.contains(&one.address),
+        _ => false,
+    };
+    let proposals = all.iter().filter(is_written).count();
+    if a.write.is_some() && proposals > 0 {
+        let text = written(&lesson, &all, names);
         // The new text is parsed again before the file is replaced.
         let again = reload_lesson(&lesson, &text, &folder);
         if again.verifies().count() != lesson.verifies().count() + proposals {
@@ -70,61 +81,99 @@ pub(super) fn scaffold(a: &ScaffoldArguments) -> Result<CommandOutcome, Failure>
     Ok(if all.iter().all(done) { CommandOutcome::Clean } else { CommandOutcome::Findings })
 }
 
+/// The error that a name belongs to no question or lab without a claim.
+fn unknown_name(lesson: &Path, name: &str, all: &[Scaffold]) -> Failure {
+    let names = || all.iter().map(|one| one.address.as_str());
+    let near = match nearest(name, names()) {
+        Some(near) => format!("did you mean `{}`?", printable(near)),
+        None => format!("those without a claim are {}", printable(&names().collect::<Vec<_>>().join(", "))),
+    };
+    format!("{} has no question or lab `{}` without a claim; {near}", printable_path(lesson), printable(name))
+}
+
 /// Whether a proposal is true.
 fn is_confirmed(verdict: &Option<(Verdict, String)>) -> bool {
     verdict.as_ref().is_none_or(|(v, _)| matches!(v, Verdict::Verified | Verdict::Computed))
 }
 
+/// The result of each question and lab, and their counts.
 fn human(a: &ScaffoldArguments, lesson: &Lesson, all: &[Scaffold]) -> String {
     let mut text = String::new();
-    let mut counts = [0usize; 3];
+    let mut counts = [0usize; 4];
     for one in all {
         let at = lesson.file.position(one.span.start);
         let _ = writeln!(text, "{}:{} {}", at.line, at.column, printable(&one.name));
-        match &one.found {
-            ScaffoldOutcome::Proposed { verify, values, undecided, verdict } => {
-                counts[0] += 1;
-                for (name, x) in values {
-                    let _ = writeln!(text, "  {} = {}", printable(name), significant(*x));
-                }
-                if let Some((verdict, reason)) = verdict {
-                    let reason =
-                        if reason.is_empty() { String::new() } else { format!(": {}", printable(reason)) };
-                    let _ = writeln!(text, "  as it stands here: {}{reason}", verdict.as_str());
-                }
-                for option in undecided {
-                    let _ = writeln!(
-                        text,
-                        "  option {option} is left open: its words state nothing that was measured"
-                    );
-                }
-                if !a.write {
-                    let _ = writeln!(text, "\n\"verify\": {}\n", printable_lines(&format_verify(verify)));
-                }
-            }
-            ScaffoldOutcome::Contradicted { option, values } => {
-                counts[1] += 1;
-                let _ = writeln!(
-                    text,
-                    "  the runs support option {}, which is not the key; nothing is proposed",
-                    option + 1
-                );
-                for (name, x) in values {
-                    let _ = writeln!(text, "    {} = {}", printable(name), significant(*x));
-                }
-            }
-            ScaffoldOutcome::Open(why) => {
-                counts[2] += 1;
-                let _ = writeln!(text, "  left open: {}", printable(why));
-            }
-        }
+        let kind = match &one.found {
+            ScaffoldOutcome::Proposed { .. } => 0,
+            ScaffoldOutcome::Contradicted { .. } => 1,
+            ScaffoldOutcome::Skeleton { .. } => 2,
+            ScaffoldOutcome::Open(_) => 3,
+        };
+        counts[kind] += 1;
+        text += &outcome_lines(a, one);
     }
-    let [proposed, against, open] = counts;
-    let done = if a.write { "written" } else { "proposed" };
+    let [proposed, against, skeletons, open] = counts;
     let against =
         if against > 0 { format!("{against} where the runs contradict the key, ") } else { String::new() };
-    let _ = writeln!(text, "\n{}: {proposed} {done}, {against}{open} left open", printable_path(&a.lesson));
+    let _ = writeln!(
+        text,
+        "\n{}: {proposed} proposed, {against}{skeletons} not decided, {open} left open",
+        printable_path(&a.lesson)
+    );
     text
+}
+
+/// The lines below the name of a question or a lab. A proposal that `--write` inserts is not printed.
+fn outcome_lines(a: &ScaffoldArguments, one: &Scaffold) -> String {
+    let is_named = a.write.as_ref().is_some_and(|names| names.contains(&one.address));
+    let is_all = a.write.as_ref().is_some_and(Vec::is_empty);
+    match &one.found {
+        ScaffoldOutcome::Proposed { verify, values, undecided, verdict } => {
+            let mut text = value_lines("  ", values);
+            if let Some((verdict, reason)) = verdict {
+                let how = match verdict {
+                    Verdict::Verified => "in these runs, the key holds",
+                    _ => "the formula gives the key",
+                };
+                let reason =
+                    if reason.is_empty() { String::new() } else { format!(": {}", printable(reason)) };
+                let _ = writeln!(text, "  {how}{reason}");
+            }
+            for option in undecided {
+                let _ = writeln!(
+                    text,
+                    "  option {option} is left open: its words state nothing that was measured"
+                );
+            }
+            if !is_named && !is_all {
+                let _ = writeln!(text, "\n\"verify\": {}\n", printable_lines(&format_verify(verify)));
+            }
+            text
+        }
+        ScaffoldOutcome::Contradicted { option, values } => format!(
+            "  the runs support option {}, which is not the key; nothing is proposed\n{}",
+            option + 1,
+            value_lines("    ", values)
+        ),
+        ScaffoldOutcome::Skeleton { why, verify } => {
+            let mut text = format!("  not decided: {}\n", printable(why));
+            if !is_named {
+                let _ = writeln!(
+                    text,
+                    "  a skeleton, which `--write {}` inserts:\n\n\"verify\": {}\n",
+                    printable(&one.address),
+                    printable_lines(&format_verify(verify))
+                );
+            }
+            text
+        }
+        ScaffoldOutcome::Open(why) => format!("  left open: {}\n", printable(why)),
+    }
+}
+
+/// A line for each value.
+fn value_lines(indent: &str, values: &[(String, f64)]) -> String {
+    values.iter().map(|(name, x)| format!("{indent}{} = {}\n", printable(name), significant(*x))).collect()
 }
 
 /// The proposals for programs.
@@ -145,7 +194,7 @@ struct ScaffoldRow<'a> {
     verify: Option<&'a ProposedVerify>,
     values: Vec<ValueRow<'a>>,
     undecided: &'a [usize],
-    verdict: Option<&'static str>,
+    tried: Option<&'static str>,
     reason: Option<&'a str>,
     option: Option<usize>,
 }
@@ -175,12 +224,18 @@ fn row<'a>(lesson: &Lesson, one: &'a Scaffold) -> ScaffoldRow<'a> {
             verify: Some(verify),
             values: measured(values),
             undecided,
-            verdict: verdict.as_ref().map(|(v, _)| v.as_str()),
+            tried: verdict.as_ref().map(|(v, _)| match v {
+                Verdict::Verified => "runs",
+                _ => "formula",
+            }),
             reason: verdict.as_ref().map(|(_, reason)| reason.as_str()),
             ..row
         },
         ScaffoldOutcome::Contradicted { option, values } => {
             ScaffoldRow { outcome: "contradicted", values: measured(values), option: Some(option + 1), ..row }
+        }
+        ScaffoldOutcome::Skeleton { why, verify } => {
+            ScaffoldRow { outcome: "skeleton", verify: Some(verify), reason: Some(why), ..row }
         }
         ScaffoldOutcome::Open(why) => ScaffoldRow { outcome: "open", reason: Some(why), ..row },
     }

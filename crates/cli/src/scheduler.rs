@@ -19,7 +19,8 @@ use super::digest;
 use super::file_check::{FileOutcome, FileTask, check_file, plan_tasks};
 use super::parallel::{OrderedPrinter, map_in_parallel};
 use super::policy::{Policies, Policy};
-use super::stdio::clear_progress;
+use super::stdio::{clear_progress, show_progress};
+use super::widgets;
 use labspec::bind::parts::Hash;
 use labspec::bind::scene::Models;
 use labspec::finding::{self, Finding};
@@ -49,7 +50,7 @@ fn check_with_hash(request: &CheckRequest<'_>, cache: &Cache, hash: Hash) -> Res
     let (jobs, mut models) = plan_jobs(request, files, hash, &mut policies)?;
     let outcomes = check_files(request, cache, &jobs, &models)?;
     let (mut results, mut files) = collect_outcomes(request, &jobs, outcomes, problems)?;
-    files.skipped = skipped;
+    files.skipped.extend(skipped);
     add_course_findings(request, &jobs, &mut models, &mut results);
     apply_policies(request, &mut policies, &mut results)?;
     results.ledger = build_ledger(&results, &files, &mut policies)?;
@@ -106,6 +107,9 @@ fn check_files(
 ) -> Result<Vec<FileOutcome>, Failure> {
     let printer = OrderedPrinter::new(request.progress);
     let outcomes = map_in_parallel(jobs, request.jobs, |i, job| {
+        if request.progress {
+            show_progress(&format!("checking {} of {}: {}", i + 1, jobs.len(), printable_path(&job.file.0)));
+        }
         let mut outcome = check_file(request, cache, &job.task, &job.file, models);
         suppress_findings(request, &job.policy, &mut outcome);
         if let Some(color) = request.findings_in_color {
@@ -124,6 +128,8 @@ fn check_files(
 fn suppress_findings(request: &CheckRequest<'_>, policy: &Policy, outcome: &mut FileOutcome) {
     if let FileOutcome::Lesson(lesson) = outcome {
         let (c, suppressed) = (&mut lesson.checked, &mut lesson.suppressed);
+        widgets::check(&c.lesson, &policy.widgets, &mut c.findings);
+        finding::sort(&mut c.findings);
         suppressed.suppress(policy, request.baseline, &mut c.findings, &[&c.lesson.file]);
         suppressed.allowed = std::mem::take(&mut c.allowed);
     }
@@ -151,10 +157,10 @@ fn collect_outcomes(
     let mut results = CourseResults { reference_engine, ..CourseResults::default() };
     let mut files = FileOutcomes::default();
     let mut refused: Vec<UnreadFile> = problems;
-    let mut readable = 0;
+    let (mut readable, mut interrupted) = (0, 0);
     for (CheckJob { file: (path, _), .. }, outcome) in jobs.iter().zip(outcomes) {
         results.dependencies.insert(path.clone());
-        readable += usize::from(!matches!(outcome, FileOutcome::Refused(_)));
+        readable += usize::from(!matches!(outcome, FileOutcome::Refused(_) | FileOutcome::Interrupted));
         match outcome {
             FileOutcome::Lesson(lesson) => {
                 if lesson.cancelled {
@@ -173,11 +179,17 @@ fn collect_outcomes(
                 results.sources.extend(sources);
             }
             FileOutcome::Refused(why) => refused.push((path.clone(), why)),
-            // The user requested the check and it did not happen, so this is reported.
             FileOutcome::Interrupted => {
-                refused.push((path.clone(), "interrupted before it was checked".into()))
+                interrupted += 1;
+                files.skipped.push((path.clone(), "interrupted before it was checked".into()));
             }
         }
+    }
+    if interrupted > 0 {
+        results.checked_before_interrupt = Some((jobs.len() - interrupted, jobs.len()));
+    }
+    if readable == 0 && interrupted > 0 {
+        return Err(format!("interrupted: 0 of {} files checked", jobs.len()));
     }
     if readable == 0 {
         return Err(nothing_to_check(request.paths, &refused));
@@ -197,6 +209,8 @@ fn add_course_findings(
     results.dependencies.extend(jobs.iter().map(|job| lint::snapshot_path(&job.file.0)));
     let others = results.checked.iter().flat_map(|c| &c.lesson.others);
     results.dependencies.extend(others.map(|other| PathBuf::from(&other.path)));
+    let data = results.checked.iter().flat_map(|c| &c.lesson.data);
+    results.dependencies.extend(data.map(|file| file.path.clone()));
     let findings = &mut results.course_findings;
     findings.extend(orphaned_snapshots(request.paths).iter().map(|path| orphaned_snapshot_finding(path)));
     let lessons: Vec<_> = results.checked.iter().map(|c| &c.lesson).collect();
@@ -217,8 +231,10 @@ fn apply_policies(
     policies: &mut Policies,
     results: &mut CourseResults,
 ) -> Result<(), Failure> {
-    let CourseResults { course_findings, suppressed, sources, .. } = results;
-    let sources: Vec<&SourceFile> = sources.iter().collect();
+    let CourseResults { course_findings, suppressed, sources, checked, .. } = results;
+    // Findings about several lessons together are in lessons.
+    let lessons = checked.iter().map(|c| &c.lesson.file);
+    let sources: Vec<&SourceFile> = sources.iter().chain(lessons).collect();
     for (path, mut findings) in group_by_path(std::mem::take(course_findings)) {
         let policy = policies.policy_for(Path::new(&*path))?;
         suppressed.suppress(&policy, request.baseline, &mut findings, &sources);

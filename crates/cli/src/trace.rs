@@ -49,7 +49,9 @@ pub(super) fn trace(a: &TraceArguments) -> Result<CommandOutcome, Failure> {
         TraceFormat::Human => print(&human(a, &lesson, &found))?,
         TraceFormat::Json => print_report("trace", &machine(&lesson, &found))?,
     }
-    let traced = |n: &Traced| matches!(n.origin, Origin::Claimed | Origin::From(_) | Origin::Setting(_));
+    let traced = |n: &Traced| {
+        matches!(n.origin, Origin::Claimed | Origin::From(_) | Origin::Setting(_) | Origin::Listed(_))
+    };
     Ok(if found.numbers.iter().all(traced) { CommandOutcome::Clean } else { CommandOutcome::Findings })
 }
 
@@ -95,7 +97,9 @@ pub(super) fn describe_origin(origin: &Origin, found: &Traces<'_>) -> String {
             let chance =
                 if hit.chance > 0.0 { format!(", chance {}", share(hit.chance)) } else { String::new() };
             let description = hit.description();
-            format!(" = {} = {value}  ({}{chance})", printable(&description), printable(&place(found, hit)))
+            let fragile = if hit.fragile { ", other digits at half the timestep" } else { "" };
+            let place = place(found, hit);
+            format!(" = {} = {value}  ({}{chance}{fragile})", printable(&description), printable(&place))
         }
         Origin::Unsteady(hit) => format!(
             " is not reproducible: {} = {}  ({}), and other digits if the start moves by 1e-14",
@@ -107,6 +111,7 @@ pub(super) fn describe_origin(origin: &Origin, found: &Traces<'_>) -> String {
         Origin::Chance(hit) => {
             format!(" may be chance ({}): {}", share(hit.chance), printable(&hit.description()))
         }
+        Origin::Listed(line) => format!(" is printed by a listing, in line {line}"),
         Origin::Claimed => " is claimed".to_string(),
         Origin::Unknown => " not traced".to_string(),
     }
@@ -118,6 +123,10 @@ fn summarize(numbers: &[Traced]) -> String {
     let claimed = count(|o| matches!(o, Origin::Claimed));
     let from = count(|o| matches!(o, Origin::From(_)));
     let set = count(|o| matches!(o, Origin::Setting(_)));
+    let listed = match count(|o| matches!(o, Origin::Listed(_))) {
+        0 => String::new(),
+        n => format!("{n} printed by listings, "),
+    };
     let chance = count(|o| matches!(o, Origin::Chance(_)));
     let unknown = count(|o| matches!(o, Origin::Unknown));
     let unsteady = match count(|o| matches!(o, Origin::Unsteady(_))) {
@@ -125,7 +134,7 @@ fn summarize(numbers: &[Traced]) -> String {
         n => format!("{n} not reproducible, "),
     };
     format!(
-        "{} numbers with units; {claimed} claimed, {from} traced, {set} set by the text, {chance} perhaps by chance, {unsteady}{unknown} not traced",
+        "{} numbers with units; {claimed} claimed, {from} traced, {set} set by the text, {listed}{chance} perhaps by chance, {unsteady}{unknown} not traced",
         numbers.len()
     )
 }
@@ -174,6 +183,7 @@ fn machine<'a>(lesson: &Lesson, found: &'a Traces<'_>) -> TraceReport<'a> {
             Origin::Chance(hit) => ("chance", Some(hit), None),
             Origin::Unsteady(hit) => ("unsteady", Some(hit), None),
             Origin::Setting(words) => ("set", None, Some(words.as_str())),
+            Origin::Listed(_) => ("listed", None, None),
             Origin::Claimed => ("claimed", None, None),
             Origin::Unknown => ("unknown", None, None),
         };

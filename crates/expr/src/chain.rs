@@ -81,7 +81,7 @@ pub fn texts_in(source: &str) -> Vec<(String, Span)> {
 /// Returns the span of the longest chain of names, members, indexes and calls that ends with the link at byte `offset`. In
 /// `data.qpos[0]`, this is `data` at its first letter, `data.qpos` after the point, and the whole chain at the index.
 pub fn chain_at(source: &str, offset: usize) -> Option<Span> {
-    let all = Tokens { list: listed(source), schema: None };
+    let all = Tokens::syntax(source);
     let holds = |t: &Token<'_>| t.span.start <= offset && offset <= t.span.end;
     // Between two tokens, a name that begins there is preferred.
     let near: Vec<usize> = (0..all.len()).filter(|&i| all.list.get(i).is_some_and(holds)).collect();
@@ -158,12 +158,22 @@ impl<'s> Tokens<'s> {
         Tokens { list: listed(source), schema: Some(schema) }
     }
 
+    /// The tokens of a text of which only the syntax is needed.
+    pub(crate) fn syntax(source: &'s str) -> Tokens<'s> {
+        Tokens { list: listed(source), schema: None }
+    }
+
     pub(crate) fn len(&self) -> usize {
         self.list.len()
     }
 
     pub(crate) fn kind(&self, i: usize) -> Option<&TokenKind<'s>> {
         self.list.get(i).map(|t| &t.kind)
+    }
+
+    /// Whether a line break precedes a token.
+    pub(crate) fn is_first_of_line(&self, i: usize) -> bool {
+        self.list.get(i).is_some_and(|t| t.newline)
     }
 
     /// The name of an object at a token.

@@ -6,9 +6,13 @@ use crate::globals::Globals;
 use crate::lex::TokenKind;
 use crate::math;
 use crate::natives;
-use crate::schema::{Field, Schema, signature};
+use crate::schema::{Entry, Field, Param, Schema, signature};
 use crate::types::Type;
 use labspec_finding::Span;
+use std::fmt;
+
+/// The maximum number of elements of a field whose unit is determined from its object.
+const MAX_OBJECT_ELEMENTS: usize = 16;
 
 /// The kind of a suggestion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,12 +46,32 @@ pub struct Suggestion {
     pub replace: Span,
 }
 
-/// Returns the completions at byte `offset`, in the order of the host. `globals` contains the variables of all programs of the
-/// lab. There are no completions inside numbers, comments and strings that are not names of objects.
+/// What a text can use.
+pub struct CompletionScope<'s> {
+    /// The variables of all programs of the lab; `None` where the text cannot read them.
+    pub globals: Option<&'s Globals>,
+    /// Whether `value` has a meaning.
+    pub has_value: bool,
+    /// Whether the text consists of statements: a function without a result is useful only as one.
+    pub has_statements: bool,
+    /// Whether the position is the target of an assignment: values and functions cannot be assigned.
+    pub is_target: bool,
+    /// Whether the text may use a name of the host.
+    pub accepts: &'s dyn Fn(&Entry) -> bool,
+}
+
+impl fmt::Debug for CompletionScope<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let CompletionScope { globals, has_value, .. } = self;
+        f.debug_struct("CompletionScope").field("globals", globals).field("has_value", has_value).finish()
+    }
+}
+
+/// Returns the completions at byte `offset`, in the order of the host. There are none inside numbers, comments and strings
+/// that are not names of objects.
 pub fn complete(
     schema: &dyn Schema,
-    globals: &Globals,
-    has_value: bool,
+    scope: &CompletionScope<'_>,
     source: &str,
     offset: usize,
 ) -> Vec<Suggestion> {
@@ -67,14 +91,16 @@ pub fn complete(
             }
             let all = Tokens::read(schema, source.get(..start).unwrap_or(""));
             let last = all.len().checked_sub(1);
-            let mut list = SuggestionList { schema, replace, all: Vec::new() };
-            match last.and_then(|last| all.kind(last)) {
-                Some(TokenKind::Symbol("." | "?.")) => {
-                    let meaning = last.and_then(|last| all.meaning(last));
-                    list.members(meaning.map(|(meaning, _)| meaning), globals);
-                }
-                _ => {
-                    list.roots(has_value);
+            let point = last.filter(|last| matches!(all.kind(*last), Some(TokenKind::Symbol("." | "?."))));
+            let chain = point.and_then(|point| all.meaning(point));
+            let first = chain.as_ref().map_or(all.len(), |(_, first)| *first);
+            let written = before.get(..start).unwrap_or("");
+            let is_statement = scope.has_statements && begins_statement(&all, first, written);
+            let mut list = SuggestionList { schema, scope, is_statement, replace, all: Vec::new() };
+            match point {
+                Some(_) => list.members(chain.map(|(meaning, _)| meaning)),
+                None => {
+                    list.roots();
                     let whole = Tokens::read(schema, source);
                     for name in whole.variables() {
                         list.add(name, Suggested::Variable, name, "a variable of this text");
@@ -86,15 +112,29 @@ pub fn complete(
     }
 }
 
+/// Whether a statement can begin with a token, or with the text after the last one.
+fn begins_statement(all: &Tokens<'_>, first: usize, before: &str) -> bool {
+    let after_line = match all.kind(first) {
+        Some(_) => all.is_first_of_line(first),
+        None => before.trim_end_matches([' ', '\t']).ends_with(['\n', '\r']),
+    };
+    let previous = first.checked_sub(1).and_then(|at| all.kind(at));
+    after_line
+        || matches!(
+            previous,
+            None | Some(TokenKind::Symbol(";" | "{" | "}" | ")" | "=>") | TokenKind::Word("else"))
+        )
+}
+
 /// The construct that is open at the end of a text.
-enum OpenConstruct {
+pub(crate) enum OpenConstruct {
     Nothing,
     Comment,
     /// A string literal, and its start.
     Text(usize),
 }
 
-fn unclosed(text: &str) -> OpenConstruct {
+pub(crate) fn unclosed(text: &str) -> OpenConstruct {
     let (mut open, mut chars) = (OpenConstruct::Nothing, text.char_indices().peekable());
     while let Some((at, c)) = chars.next() {
         let next = chars.peek().map(|(_, c)| *c);
@@ -151,6 +191,9 @@ fn names(schema: &dyn Schema, source: &str, start: usize, offset: usize) -> Vec<
 /// The completions at one position.
 struct SuggestionList<'s> {
     schema: &'s dyn Schema,
+    scope: &'s CompletionScope<'s>,
+    /// Whether a call here would be a statement.
+    is_statement: bool,
     replace: Span,
     all: Vec<Suggestion>,
 }
@@ -163,10 +206,16 @@ impl SuggestionList<'_> {
         }
     }
 
-    fn entry(&mut self, text: &str, meaning: PathMeaning) {
-        match meaning {
+    fn entry(&mut self, text: &str, entry: Entry) {
+        if !(self.scope.accepts)(&entry) || !self.can_follow(&entry) {
+            return;
+        }
+        match of_entry(entry) {
             PathMeaning::Object(id) => self.add(text, Suggested::Object, self.schema.describe(id), ""),
-            PathMeaning::Field(field) => self.add(text, Suggested::Field, field.path.clone(), about(&field)),
+            PathMeaning::Field(field) => {
+                let doc = about(self.schema, &field);
+                self.add(text, Suggested::Field, field.path, doc);
+            }
             PathMeaning::Collection(id) => {
                 let noun = self.schema.noun(id).to_string();
                 self.add(
@@ -184,16 +233,39 @@ impl SuggestionList<'_> {
         }
     }
 
-    fn roots(&mut self, has_value: bool) {
-        if has_value {
+    /// Whether a valid text can continue with this name: a collection needs an object, and so does a function that takes a
+    /// name; a function without a result is a statement.
+    fn can_follow(&self, entry: &Entry) -> bool {
+        let has_names = |id| !self.schema.names(id).is_empty();
+        match entry {
+            Entry::Collection(id) => has_names(*id),
+            Entry::Function(id) => {
+                let info = self.schema.function(*id);
+                let required = info.params.len().saturating_sub(info.optional);
+                let mut required = info.params.iter().take(required);
+                (info.returns != Type::Void || self.is_statement)
+                    && required.all(|param| !matches!(param, Param::Name(id) if !has_names(*id)))
+            }
+            Entry::Field(field) => !(self.scope.is_target && field.is_empty()),
+            Entry::Object(_) | Entry::Constant(_) => true,
+        }
+    }
+
+    fn roots(&mut self) {
+        if self.scope.has_value && !self.scope.is_target {
             self.add("value", Suggested::Variable, "value", "the chosen value");
         }
         for name in self.schema.root_names() {
             if let Some(entry) = self.schema.root(&name) {
-                self.entry(&name, of_entry(entry));
+                self.entry(&name, entry);
             }
         }
-        self.add("ctx", Suggested::Object, "ctx", "global variables");
+        if self.scope.globals.is_some() {
+            self.add("ctx", Suggested::Object, "ctx", "global variables");
+        }
+        if self.scope.is_target {
+            return;
+        }
         self.add("Math", Suggested::Object, "Math", "mathematical functions and constants");
         for name in ["Infinity", "NaN", "undefined", "null", "true", "false"] {
             self.add(name, Suggested::Constant, name, "");
@@ -204,16 +276,16 @@ impl SuggestionList<'_> {
     }
 
     /// Adds the members after a point.
-    fn members(&mut self, of: Option<PathMeaning>, globals: &Globals) {
+    fn members(&mut self, of: Option<PathMeaning>) {
         match of {
             Some(PathMeaning::Object(id)) => {
                 for name in self.schema.member_names(id) {
                     if let Some(entry) = self.schema.member(id, &name) {
-                        self.entry(&name, of_entry(entry));
+                        self.entry(&name, entry);
                     }
                 }
             }
-            Some(PathMeaning::Math) => {
+            Some(PathMeaning::Math) if !self.scope.is_target => {
                 for name in math::names() {
                     match math::function(name) {
                         Some(function) => {
@@ -224,13 +296,18 @@ impl SuggestionList<'_> {
                 }
             }
             Some(PathMeaning::Globals) => {
-                for slot in 0..globals.len() {
-                    let name = globals.name(slot as u32).to_string();
+                let globals = self.scope.globals;
+                for slot in 0..globals.map_or(0, Globals::len) {
+                    let name = globals.map_or("", |all| all.name(slot as u32)).to_string();
                     self.add(&name, Suggested::Variable, format!("ctx.{name}"), "a global variable");
                 }
             }
-            Some(PathMeaning::Field(field)) if !field.is_scalar() => self.methods(Type::View),
-            Some(PathMeaning::Result(id)) => {
+            Some(PathMeaning::Field(field))
+                if !field.is_scalar() && (self.scope.accepts)(&Entry::Field(field.clone())) =>
+            {
+                self.methods(Type::View);
+            }
+            Some(PathMeaning::Result(id)) if (self.scope.accepts)(&Entry::Function(id)) => {
                 let info = self.schema.function(id);
                 for (name, ty) in info.members {
                     self.add(&name, Suggested::Field, format!("{}().{name}", info.name), ty.describe());
@@ -243,6 +320,9 @@ impl SuggestionList<'_> {
     }
 
     fn methods(&mut self, of: Type) {
+        if self.scope.is_target {
+            return;
+        }
         if matches!(of, Type::View | Type::List | Type::String) {
             self.add("length", Suggested::Field, ".length", "the number of elements");
         }
@@ -253,8 +333,11 @@ impl SuggestionList<'_> {
 }
 
 /// A description of a field in one sentence.
-fn about(field: &Field) -> String {
-    let unit = if field.unit.is_empty() { String::new() } else { format!(", {}", field.unit) };
+fn about(schema: &dyn Schema, field: &Field) -> String {
+    // The part of one object is small; a whole array would need a search in each of its elements.
+    let of_object = field.len().is_some_and(|count| count <= MAX_OBJECT_ELEMENTS);
+    let unit = if of_object { schema.unit(field, None) } else { field.unit.clone() };
+    let unit = if unit.is_empty() { String::new() } else { format!(", {unit}") };
     let shape: Vec<String> = field.shape.iter().map(|n| n.map_or("?".into(), |n| n.to_string())).collect();
     let shape = if shape.is_empty() { String::new() } else { format!(" ({} numbers)", shape.join(" × ")) };
     format!("{}{unit}{shape}", field.doc)

@@ -37,6 +37,7 @@ mod print;
 mod program;
 mod reference;
 mod schema;
+mod signature;
 mod source_functions;
 
 use labspec_machine::{
@@ -61,7 +62,7 @@ pub use analysis::measure::{DimensionClash, DimensionStore, KnownDimensions, Tex
 pub use bind::{Compiled, Compiler};
 pub use chain::{FieldMention, NamedObject, chain_at, fields_in, names_in, texts_in, variables_of};
 pub use columnar::{Columnar, Foreign, Recording};
-pub use complete::{Suggested, Suggestion, complete};
+pub use complete::{CompletionScope, Suggested, Suggestion, complete};
 pub use context::Context;
 pub use effects::{Access, Effects};
 pub use globals::{Globals, ProgramId};
@@ -81,6 +82,7 @@ pub use schema::{
     AccessedFields, AngleAdvice, Entry, Field, FieldKind, FunctionInfo, Help, Param, ResultDimension, Role,
     Schema,
 };
+pub use signature::{CallSignature, is_in_aggregate, is_in_brackets, signature_at};
 pub use types::{CollectionId, Elem, FieldKey, FunctionId, ObjectId, Type};
 pub use value::{Ref, Value, View};
 pub use watch::{Comparison, Watch};

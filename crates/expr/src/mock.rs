@@ -60,6 +60,7 @@ static WORDS: HostTerms = HostTerms {
         "give the key a `keeps` and read it as `ctx.<keeps>`",
     ),
     store: "store it first, as `ctx.{name} = 0` in `begin`, or give a key `\"keeps\": \"{name}\"`",
+    own_number: "store it as `ctx.{name} = …` in a text of statements, and read `ctx.{name}` here",
     rounding: ", or set `places` of the cell",
     recompute: "`mj_setConst`",
 };
@@ -292,7 +293,7 @@ impl Schema for Mock {
         }
     }
 
-    fn hint(&self, object: ObjectId, name: &str) -> Option<String> {
+    fn hint(&self, object: ObjectId, name: &str, _: Option<usize>) -> Option<String> {
         (object == DATA && name == "position").then(|| "positions of bodies are in `data.xpos`".into())
     }
 

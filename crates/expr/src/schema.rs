@@ -130,6 +130,11 @@ pub struct FunctionInfo {
 
 /// The short form of a call: `mj.mj_forward(model, data)`.
 pub(crate) fn signature(schema: &dyn Schema, info: &FunctionInfo) -> String {
+    format!("{}({})", info.name, parameters(schema, info).join(", "))
+}
+
+/// The parameters of a function as a signature names them.
+pub(crate) fn parameters(schema: &dyn Schema, info: &FunctionInfo) -> Vec<String> {
     let params = info.params.iter().map(|param| match param {
         Param::Number | Param::Angle | Param::Lazy => "x".to_owned(),
         Param::Text => "\"text\"".to_owned(),
@@ -139,7 +144,7 @@ pub(crate) fn signature(schema: &dyn Schema, info: &FunctionInfo) -> String {
         Param::Object(id) => schema.describe(*id),
         Param::Name(id) => format!("\"name of a {}\"", schema.noun(*id)),
     });
-    format!("{}({})", info.name, params.collect::<Vec<_>>().join(", "))
+    params.collect()
 }
 
 /// The dimension of the numbers in a result.
@@ -268,9 +273,10 @@ pub trait Schema {
     /// Signature and effects of a function.
     fn function(&self, function: FunctionId) -> FunctionInfo;
 
-    /// A remark of the host about a member that does not exist: what authors who write it usually mean.
-    fn hint(&self, object: ObjectId, name: &str) -> Option<String> {
-        let _ = (object, name);
+    /// A remark of the host about a member that does not exist: what authors who write it usually mean. `index` is the index
+    /// that follows the member.
+    fn hint(&self, object: ObjectId, name: &str, index: Option<usize>) -> Option<String> {
+        let _ = (object, name, index);
         None
     }
 
@@ -278,6 +284,13 @@ pub trait Schema {
     fn element_help(&self, field: FieldKey, index: usize) -> Option<String> {
         let _ = (field, index);
         None
+    }
+
+    /// The unit of a field, or of one of its elements, counted from the start of the field. Where the unit of the field
+    /// depends on the object, it is that of these elements, if it is certain. Empty if there is none.
+    fn unit(&self, field: &Field, element: Option<usize>) -> String {
+        let _ = element;
+        field.unit.clone()
     }
 
     /// The role of element `index` of a whole field.

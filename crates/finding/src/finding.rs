@@ -87,6 +87,8 @@ pub struct Finding {
     pub related: Vec<Place>,
     /// The claim to which it belongs; `None` if it does not concern a claim.
     pub claim: Option<Box<ClaimId>>,
+    /// The link that it concerns, as written; the settings of a course can resolve it.
+    pub link: Option<Box<str>>,
 }
 
 impl Finding {
@@ -148,7 +150,7 @@ impl Finding {
         self
     }
 
-    /// Sets another severity than that of the rule.
+    /// Sets another severity than that of the rule, one of its [exceptions](Rule::exceptions).
     pub fn severity(mut self, severity: Severity) -> Finding {
         self.severity = severity;
         self
@@ -179,6 +181,7 @@ fn bare(
         fix: None,
         related: Vec::new(),
         claim: None,
+        link: None,
     }
 }
 
@@ -230,6 +233,7 @@ mod tests {
     const RULE: Rule = Rule {
         code: "unknown-key",
         severity: Severity::Error,
+        exceptions: &[],
         layer: Layer::Structure,
         summary: "a key that nothing reads",
         why: "what it says has no effect",

@@ -5,8 +5,11 @@ use crate::order::sort_by;
 /// Names longer than this are not compared: they are never intended, and the cost grows with the product of the lengths.
 const LONGEST: usize = 64;
 
+/// Maximum number of edits of a similar name.
+const MOST_EDITS: usize = 3;
+
 /// Returns the candidate that `written` probably means: the same word in another case, one with few edits (insertion, deletion,
-/// replacement, swap of neighbours), one that is a prefix or an extension of the word (`expression` for `expr`), or one that
+/// replacement, swap of neighbours), one of the same stem (`explanation` for `explain`), one that is a prefix or an extension of the word (`expression` for `expr`), or one that
 /// contains the word as a part (`mass` for `body_mass`). Among equal candidates, the first one is returned.
 pub fn nearest<'a>(written: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     ranked(written, candidates).map(|(_, candidate)| candidate)
@@ -18,7 +21,7 @@ pub fn ranked<'a>(written: &str, candidates: impl IntoIterator<Item = &'a str>) 
         return None;
     }
     // One edit is allowed for short words, more for longer ones.
-    let allowed = written.chars().count().div_ceil(3).min(3);
+    let allowed = written.chars().count().div_ceil(3).min(MOST_EDITS);
     // A single letter is one edit away from every other letter, so only its other case is accepted.
     let most = if written.chars().nth(1).is_none() { 1 } else { 10 * allowed + 1 };
     let mut best: Option<(usize, &str)> = None;
@@ -51,16 +54,30 @@ fn cost(written: &str, candidate: &str) -> Option<usize> {
         return Some(5); // the same parts in another order
     }
     // A difference in case counts little.
-    let same_case = 10 * distance(written, candidate);
-    let edits =
-        same_case.min(1 + 10 * distance(&written.to_ascii_lowercase(), &candidate.to_ascii_lowercase()));
+    let edits = match written.chars().count().abs_diff(candidate.chars().count()) {
+        0..=MOST_EDITS => {
+            let same_case = 10 * distance(written, candidate);
+            same_case.min(1 + 10 * distance(&written.to_ascii_lowercase(), &candidate.to_ascii_lowercase()))
+        }
+        // Too many insertions: only the other similarities count.
+        far => 10 * far,
+    };
     // `mass` for `body_mass`: the distance grows with the number of missing parts.
     let holds = !a.is_empty() && written.len() >= 3 && a.iter().all(|p| b.contains(p));
     let edits = if holds { edits.min(8 + b.len()) } else { edits };
     let (written, candidate) = (written.to_ascii_lowercase(), candidate.to_ascii_lowercase());
     let begins = written.len().min(candidate.len()) >= 3
         && (written.starts_with(&candidate) || candidate.starts_with(&written));
-    Some(if begins { edits.min(10) } else { edits })
+    let edits = if begins { edits.min(10) } else { edits };
+    Some(if have_common_stem(&written, &candidate) { edits.min(25) } else { edits })
+}
+
+/// Whether two words are of one stem: `explanation` and `explain`.
+fn have_common_stem(written: &str, candidate: &str) -> bool {
+    let common = written.chars().zip(candidate.chars()).take_while(|(a, b)| a == b).count();
+    let shorter = written.chars().count().min(candidate.chars().count());
+    let are_words = [written, candidate].iter().all(|word| word.chars().all(char::is_alphabetic));
+    are_words && common >= 5 && 3 * common >= 2 * shorter
 }
 
 /// Optimal string alignment distance: insertions, deletions, replacements and swaps of neighbours.
@@ -69,8 +86,9 @@ pub fn distance(a: &str, b: &str) -> usize {
     let b: Vec<char> = b.chars().collect();
     let mut before: Vec<usize> = vec![0; b.len() + 1];
     let mut last: Vec<usize> = (0..=b.len()).collect();
+    let mut row = before.clone();
     for i in 0..a.len() {
-        let mut row = vec![i + 1; b.len() + 1];
+        row[0] = i + 1;
         for j in 0..b.len() {
             let replace = last[j] + usize::from(a[i] != b[j]);
             row[j + 1] = replace.min(last[j + 1] + 1).min(row[j] + 1);
@@ -78,8 +96,8 @@ pub fn distance(a: &str, b: &str) -> usize {
                 row[j + 1] = row[j + 1].min(before[j - 1] + 1);
             }
         }
-        before = last;
-        last = row;
+        std::mem::swap(&mut before, &mut last);
+        std::mem::swap(&mut last, &mut row);
     }
     last[b.len()]
 }
@@ -100,6 +118,7 @@ mod tests {
             ("geom_frction", Some("geom_friction")),
             ("tiem", Some("time")),
             ("position", None),
+            ("times", Some("time")),
             ("tim", Some("time")),
             ("inertia", Some("body_inertia")),
             ("q", None),
@@ -108,6 +127,12 @@ mod tests {
         ] {
             assert_eq!(nearest(written, names), meant, "{written}");
         }
+    }
+
+    #[test]
+    fn words_of_one_stem_are_near() {
+        assert_eq!(nearest("explanation", ["q", "explain", "label"]), Some("explain"));
+        assert_eq!(nearest("body_mocap", ["body_mass"]), None);
     }
 
     #[test]

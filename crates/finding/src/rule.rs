@@ -55,8 +55,10 @@ impl Layer {
 pub struct Rule {
     /// The stable name, in words: `unknown-key`.
     pub code: &'static str,
-    /// The usual severity.
+    /// The severity of its findings.
     pub severity: Severity,
+    /// Other severities of its findings, each with the circumstances in a clause.
+    pub exceptions: &'static [(Severity, &'static str)],
     /// The information that it needs.
     pub layer: Layer,
     /// What is wrong, in one line without a full stop.
@@ -77,12 +79,21 @@ impl PartialEq<Rule> for str {
 }
 
 impl Rule {
+    /// Whether a finding of this rule may have this severity.
+    pub fn may_be(&self, severity: Severity) -> bool {
+        self.severity == severity || self.exceptions.iter().any(|(other, _)| *other == severity)
+    }
+
     /// Returns the long explanation as Markdown: the mistake, the reason, a wrong and a right example.
     pub fn explain(&self) -> String {
         let mut text =
             format!("# {} ({})\n\n{}\n", self.code, self.severity.as_str(), sentence(self.summary));
         if !self.why.is_empty() {
             text.push_str(&format!("\n{}\n", sentence(self.why)));
+        }
+        for (severity, circumstances) in self.exceptions {
+            let article = if *severity == Severity::Error { "an" } else { "a" };
+            text.push_str(&format!("\nIt is {article} {} {}.\n", severity.as_str(), circumstances));
         }
         for (title, example) in [("Wrong", &self.bad), ("Right", &self.good)] {
             text.push_str(&format!(

@@ -6,6 +6,7 @@ use labspec::{Checker, spec::Lesson};
 const NO_UNIT: &Rule = &Rule {
     code: "house-no-unit",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "the label of a trace has no unit",
     why: "students cannot read the axis",

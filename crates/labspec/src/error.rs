@@ -7,7 +7,7 @@ pub use labspec_bind::Error;
 
 impl From<RunError> for Error {
     fn from(e: RunError) -> Error {
-        Error::Call(e.0)
+        Error::Call(e.to_string())
     }
 }
 

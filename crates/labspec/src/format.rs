@@ -1,16 +1,21 @@
-//! The formatter: formats the code in a lesson, and replaces bare indexes by the names of their objects. The JSON and the
-//! Markdown around the code are unchanged, byte for byte.
+//! The formatter: formats the code in a lesson, replaces bare indexes by the names of their objects, and lays out the JSON of
+//! labs, quizzes and claims. The Markdown around them is unchanged, byte for byte.
 //!
-//! A text is not changed if it has errors or comments, or if the file does not contain it as plain JSON (a repaired quote):
-//! only changes that certainly preserve the meaning are made.
+//! A text is not changed if it has errors or comments, or if the file does not contain it as plain JSON (a repaired quote). JSON
+//! is not laid out if a page cannot read it, or if it is in a quote or a list item. Only changes that certainly preserve the
+//! meaning are made.
 
 use crate::bind::scene::Models;
 use crate::bind::{ModelNames, Scope};
-use crate::source::Text;
-use crate::spec::{CodeForm, Lab, Lesson};
+use crate::json;
+use crate::lint::{ModelFolder, reload_lesson};
+use crate::markdown::{self, BlockKind};
+use crate::source::{SourceFile, Text};
+use crate::spec::{CodeForm, FileKind, Lab, Lesson, claims_in_comments, kind_of};
 use labspec_core::Model;
 use labspec_expr::{Compiled, Compiler, Globals, Program, Type, format_expression, format_statements};
 use std::ops::Range;
+use std::path::Path;
 
 /// A lesson with formatted code.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -21,6 +26,30 @@ pub struct Formatted {
     pub changed: usize,
     /// Number of texts of code.
     pub total: usize,
+    /// Number of blocks, files and comments whose JSON has another layout.
+    pub laid_out: usize,
+    /// The replaced bytes of the file before, and their replacements, from the end to the start.
+    pub edits: Vec<(Range<usize>, String)>,
+}
+
+/// Why a lesson is not formatted: the result would not have the same labs, claims and findings.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MeaningChanged;
+
+/// Formats like [`format()`], and reads the result again with the same related files.
+///
+/// # Errors
+/// The result is not equivalent to the lesson, which would be an error of the formatter.
+pub fn format_checked(
+    lesson: &Lesson,
+    folder: &ModelFolder,
+    models: Option<&mut Models>,
+) -> Result<Formatted, MeaningChanged> {
+    let done = format(lesson, models);
+    if !done.edits.is_empty() && !is_equivalent(lesson, &reload_lesson(lesson, &done.text, folder)) {
+        return Err(MeaningChanged);
+    }
+    Ok(done)
 }
 
 /// Formats all code of a lesson. With models, bare indexes become names: `data.qpos[9]` becomes
@@ -46,15 +75,76 @@ pub fn format(lesson: &Lesson, mut models: Option<&mut Models>) -> Formatted {
     edits.sort_by_key(|(span, _)| std::cmp::Reverse(span.start));
     edits.dedup_by(|a, b| a.0 == b.0);
     let changed = edits.len();
+    let laid_out = lay_out_blocks(lesson, &mut edits);
+    Formatted { text: edited(lesson, &edits), changed, total, laid_out, edits }
+}
+
+/// The text of a lesson with edits, which go from its end to its start.
+fn edited(lesson: &Lesson, edits: &[(Range<usize>, String)]) -> String {
     let mut text = lesson.file.text().to_owned();
-    for (span, code) in edits {
-        text.replace_range(span, &code);
+    for (span, replacement) in edits {
+        text.replace_range(span.clone(), replacement);
     }
-    Formatted { text, changed, total }
+    text
+}
+
+/// Lays out the JSON of a lesson. The edits of the code in a block become part of the edit of the block. Returns the number of
+/// blocks that change.
+fn lay_out_blocks(lesson: &Lesson, edits: &mut Vec<(Range<usize>, String)>) -> usize {
+    let coded = SourceFile::new(lesson.file.path().clone(), edited(lesson, edits));
+    let (before, after) = (json_ranges(&lesson.file), json_ranges(&coded));
+    if before.len() != after.len() {
+        debug_assert!(false, "formatted code does not add or remove blocks");
+        return 0;
+    }
+    let windows = coded.text().contains("\r\n");
+    let mut count = 0;
+    for (old, new) in before.into_iter().zip(after) {
+        let (text, column) = (coded.slice(new.clone()), coded.position(new.start).column - 1);
+        let Some(mut json) = json::lay_out(text, column) else { continue };
+        if windows {
+            json = json.replace('\n', "\r\n");
+        }
+        if json == text {
+            continue;
+        }
+        edits.retain(|(span, _)| span.start < old.start || span.end > old.end);
+        edits.push((old, json));
+        count += 1;
+    }
+    edits.sort_by_key(|(span, _)| std::cmp::Reverse(span.start));
+    count
+}
+
+/// The byte ranges of the JSON in a file: of whole lines, so that they can have more lines, and of comments at the start of a line.
+fn json_ranges(file: &SourceFile) -> Vec<Range<usize>> {
+    let text = file.text();
+    let trimmed = |range: Range<usize>| {
+        let inside = file.slice(range.clone());
+        let start = range.start + inside.len() - inside.trim_start().len();
+        start..start + inside.trim().len()
+    };
+    if kind_of(Path::new(&**file.path())) == FileKind::Json {
+        return vec![trimmed(0..text.len())];
+    }
+    let scan = markdown::scan(file);
+    let at_line_start = |at: usize| at == 0 || text.get(..at).is_some_and(|before| before.ends_with('\n'));
+    let bodies = scan.blocks.iter().filter(|block| !matches!(block.kind, BlockKind::Code { .. })).filter_map(
+        |block| {
+            let (body, lines) = (block.body.span(), 0..block.body.value.len());
+            let is_plain = block.whole && block.body.map.is_unbroken(lines) && at_line_start(body.start);
+            is_plain.then(|| trimmed(body))
+        },
+    );
+    let comments =
+        claims_in_comments(text, &scan).into_iter().filter(|(comment, _)| at_line_start(comment.start));
+    let mut all: Vec<_> = bodies.chain(comments.map(|(_, json)| trimmed(json))).collect();
+    all.sort_by_key(|range| range.start);
+    all
 }
 
 /// Whether two versions of a lesson contain the same labs and claims, and have the same findings.
-pub fn is_equivalent(before: &Lesson, after: &Lesson) -> bool {
+fn is_equivalent(before: &Lesson, after: &Lesson) -> bool {
     let texts = |lesson: &Lesson| {
         let labs = lesson.all_labs().into_iter().flat_map(|lab| lab.code()).map(|(form, _)| form);
         labs.chain(claims(lesson).into_iter().map(|(form, _)| form)).collect::<Vec<_>>()

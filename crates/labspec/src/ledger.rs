@@ -184,6 +184,12 @@ impl Outcome {
     }
 }
 
+impl FromIterator<Entry> for Ledger {
+    fn from_iter<I: IntoIterator<Item = Entry>>(entries: I) -> Ledger {
+        Ledger { entries: entries.into_iter().collect() }
+    }
+}
+
 impl Ledger {
     /// Adds a claim.
     pub fn add(&mut self, entry: Entry) {

@@ -7,19 +7,36 @@ use crate::rules;
 use crate::spec::format;
 use labspec_core::reflect::{self, Kind, Object, Stage};
 use labspec_core::xml::{self, Status};
-use labspec_finding::Layer;
+use labspec_finding::{Layer, Rule, Severity};
 use std::fmt::Write;
 
-/// File name and text of each page.
-pub fn pages() -> Vec<(&'static str, String)> {
-    vec![
+/// File name and text of each page. The page of a rule is in the folder `rules`.
+pub fn pages() -> Vec<(String, String)> {
+    let tables = [
         ("format.md", format!("{GENERATED}\n{}", format::page())),
         ("fields.md", fields()),
         ("functions.md", function_list()),
         ("language.md", format!("{GENERATED}\n{}", labspec_expr::language_page(&labspec_bind::HOST_TERMS))),
         ("codes.md", codes()),
         ("compatibility.md", compatibility()),
-    ]
+    ];
+    let tables = tables.into_iter().map(|(name, text)| (name.to_string(), text));
+    tables.chain(rules::all().map(|rule| (format!("rules/{}.md", rule.code), rule_page(rule)))).collect()
+}
+
+/// The page of a rule: what it means, why it matters, a wrong and a right example, and how a course treats it.
+fn rule_page(rule: &Rule) -> String {
+    let code = rule.code;
+    let lesson = match rule.severity {
+        Severity::Error => String::new(),
+        _ => format!(
+            "- If the lesson intends it, suppress it there, with the reason: `\"lint\": {{\"allow\": [\"{code}\"], \"why\": \"…\"}}` in the lab, the quiz or the question, or `<!-- labspec allow {code}: … -->` before a block of text.\n"
+        ),
+    };
+    format!(
+        "{GENERATED}\n{}\n## Settings\n\n- `ignore = [\"{code}\"]` in [labspec.toml](../../checking.md#settings), or `--ignore {code}`, skips it.\n- `deny = [\"{code}\"]`, or `--deny {code}`, makes it an error.\n{lesson}",
+        rule.explain()
+    )
 }
 
 /// File name and text of each schema.
@@ -105,7 +122,7 @@ fn function_list() -> String {
 
 fn codes() -> String {
     let mut text = format!(
-        "{GENERATED}\n# Codes\n\nThe meaning of each finding's code, grouped by what the rule needs. `labspec explain CODE` shows the long form: why it matters, and a wrong and a right example, both of which the tests execute.\n"
+        "{GENERATED}\n# Codes\n\nThe meaning of each finding's code, grouped by what the rule needs. The page of a code, which `labspec explain CODE` prints too, has a wrong and a right example, both of which the tests execute.\n"
     );
     for layer in Layer::ALL {
         let title = match layer {
@@ -123,15 +140,21 @@ fn codes() -> String {
             let cell = |text: &str| text.trim_end_matches('.').replace('|', "\\|");
             let _ = writeln!(
                 text,
-                "| `{}` | {} | {} | {} |",
+                "| [`{0}`](rules/{0}.md) | {1} | {2} | {3} |",
                 rule.code,
-                rule.severity,
+                severities(rule),
                 cell(rule.summary),
                 cell(rule.why)
             );
         }
     }
     text
+}
+
+/// The severities of a rule: `error, sometimes warning`.
+fn severities(rule: &Rule) -> String {
+    let others: String = rule.exceptions.iter().map(|(other, _)| format!(", sometimes {other}")).collect();
+    format!("{}{others}", rule.severity)
 }
 
 fn compatibility() -> String {
@@ -230,8 +253,8 @@ mod tests {
 
     /// The value of a measure over 0.1 s.
     fn measure(code: &str) -> String {
-        let lab = serde_json::json!({"xml": PENDULUM, "readouts": [{"label": "time (s)", "expr": "data.time"}], "verify": {
-            "runs": {"run": {"until": 0.1}}, "measure": {"m": code}, "says": [["0", "run.m"]], "options": ["true"],
+        let lab = serde_json::json!({"xml": PENDULUM, "note": "0", "readouts": [{"label": "time (s)", "expr": "data.time"}], "verify": {
+            "runs": {"run": {"until": 0.1}}, "measure": {"m": code}, "says": [["0", "run.m"]],
         }});
         let lesson = load_lesson(SourceFile::new("lab.json", lab.to_string()), &ModelFolder::unknown());
         let models = Models::new(ModelFolder::unknown());

@@ -1,17 +1,16 @@
-//! Code actions for findings: the fix, all safe fixes, or suppression with a reason.
+//! Code actions: for findings the fix, all safe fixes, or suppression with a reason; for numbers a claim.
 
 use super::convert;
 use super::diagnostic::diagnostic;
 use super::documents::OpenDocument;
+use super::edits::workspace_edit;
+use super::lenses::prove;
 use labspec::bind::scene::Models;
 use labspec::finding::Finding;
 use labspec::spec::Lesson;
 use labspec_assist::fixes::{fix, fix_all, suppression};
-use labspec_assist::{Edit, FixKind, TextFix};
-use lsp_types::{
-    CodeAction, CodeActionKind, CodeActionOrCommand, DocumentChanges, OneOf,
-    OptionalVersionedTextDocumentIdentifier, TextDocumentEdit, TextEdit, WorkspaceEdit,
-};
+use labspec_assist::{FixKind, TextFix, unclaimed_numbers};
+use lsp_types::{CodeAction, CodeActionKind, CodeActionOrCommand};
 use std::ops::Range;
 
 /// All safe fixes of a document at once.
@@ -53,6 +52,34 @@ pub(super) fn code_actions(
     all.into_iter().map(CodeActionOrCommand::from).collect()
 }
 
+/// The action that claims the numbers of a line, if the range touches one without a claim.
+pub(super) fn proof_action(
+    document: &OpenDocument,
+    lesson: &Lesson,
+    span: &Range<usize>,
+) -> Option<CodeActionOrCommand> {
+    let file = &lesson.file;
+    let line = file.line_span(file.position(span.start).line)?;
+    // This request follows every movement of the cursor, and most lines have no number.
+    if !file.slice(line.clone()).contains(|c: char| c.is_ascii_digit()) {
+        return None;
+    }
+    let mut numbers = unclaimed_numbers(lesson);
+    numbers.retain(|number| line.start <= number.start && number.start <= line.end);
+    let touches = |number: &Range<usize>| number.start <= span.end && span.start <= number.end;
+    if !numbers.iter().any(touches) {
+        return None;
+    }
+    let line = convert::position(file, line.start).line;
+    let command = prove(numbers.len(), document.uri.as_str(), line);
+    Some(CodeActionOrCommand::CodeAction(CodeAction {
+        title: command.title.clone(),
+        kind: Some(CodeActionKind::QUICKFIX),
+        command: Some(command),
+        ..CodeAction::default()
+    }))
+}
+
 /// An action that resolves a finding.
 fn quick_fix(document: &OpenDocument, f: &Finding, fix: TextFix) -> CodeAction {
     CodeAction {
@@ -63,17 +90,4 @@ fn quick_fix(document: &OpenDocument, f: &Finding, fix: TextFix) -> CodeAction {
         is_preferred: (fix.kind != FixKind::Suppression).then_some(fix.kind == FixKind::Safe),
         ..CodeAction::default()
     }
-}
-
-/// An edit of the document, in the version that the editor has.
-fn workspace_edit(document: &OpenDocument, edit: Edit) -> WorkspaceEdit {
-    let edit = TextEdit { range: convert::range(&document.content.file, &edit.span), new_text: edit.text };
-    let edits = TextDocumentEdit {
-        text_document: OptionalVersionedTextDocumentIdentifier {
-            uri: document.uri.clone(),
-            version: Some(document.version),
-        },
-        edits: vec![OneOf::Left(edit)],
-    };
-    WorkspaceEdit { document_changes: Some(DocumentChanges::Edits(vec![edits])), ..WorkspaceEdit::default() }
 }

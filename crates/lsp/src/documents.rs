@@ -2,7 +2,7 @@
 
 use super::convert;
 use labspec::source::MAX_FILE;
-use labspec_assist::Document;
+use labspec_assist::{Document, RunValues};
 use lsp_types::{TextDocumentContentChangeEvent, Uri};
 use std::path::PathBuf;
 
@@ -17,12 +17,15 @@ pub(super) struct OpenDocument {
     pub(super) version: i32,
     /// Whether it changed since the last check.
     pub(super) stale: bool,
+    /// What the runs of the last check gave.
+    pub(super) values: RunValues,
 }
 
 impl OpenDocument {
     /// Creates a document that was opened.
     pub(super) fn new(uri: Uri, path: PathBuf, text: &str, version: i32) -> OpenDocument {
-        OpenDocument { uri, content: Document::new(path, text), version, stale: true }
+        let content = Document::new(path, text);
+        OpenDocument { uri, content, version, stale: true, values: RunValues::default() }
     }
 
     /// Applies changes in order: each replaces a range, or the whole text.

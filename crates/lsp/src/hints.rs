@@ -41,14 +41,7 @@ pub(super) fn hints(document: &mut OpenDocument, context: &Context, range: &Rang
 /// The unit of a field, or of one of its elements if these differ: the height of a free body is in m, and the components of its
 /// quaternion have no unit.
 fn unit(names: &ModelNames<'_>, mention: &FieldMention) -> Option<String> {
-    let FieldMention { field, element, .. } = mention;
-    let help = element.and_then(|i| names.element_help(field.key, field.first + i));
-    let of_element =
-        help.as_deref().and_then(|help| help.rsplit_once(", ")).map(|(_, unit)| unit.to_string());
-    match field.unit.as_str() {
-        "" => None,
-        // The unit depends on the joint of the element.
-        several if several.contains(" or ") => of_element,
-        unit => Some(unit.to_string()),
-    }
+    let unit = names.unit(&mention.field, mention.element);
+    // The unit depends on the object, and is not certain.
+    (!unit.is_empty() && !unit.contains(" or ")).then_some(unit)
 }

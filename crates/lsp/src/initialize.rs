@@ -1,16 +1,18 @@
 //! Initialization: the information and settings that the editor sends, and the capabilities of this server.
 
+use super::lenses::{CHECK, PROVE};
 use lsp_types::{
-    CodeActionKind, CodeActionOptions, CodeActionProviderCapability, CompletionOptions,
-    HoverProviderCapability, InitializeResult, OneOf, PositionEncodingKind, RenameOptions, SaveOptions,
-    ServerCapabilities, ServerInfo, TextDocumentSyncCapability, TextDocumentSyncKind,
-    TextDocumentSyncOptions, TextDocumentSyncSaveOptions, Uri, WorkspaceFolder,
+    CodeActionKind, CodeActionOptions, CodeActionProviderCapability, CodeLensOptions, CompletionOptions,
+    ExecuteCommandOptions, FoldingRangeProviderCapability, HoverProviderCapability, InitializeResult, OneOf,
+    PositionEncodingKind, RenameOptions, SaveOptions, ServerCapabilities, ServerInfo, SignatureHelpOptions,
+    TextDocumentSyncCapability, TextDocumentSyncKind, TextDocumentSyncOptions, TextDocumentSyncSaveOptions,
+    Uri, WorkspaceFolder,
 };
 use serde::Deserialize;
 use serde_json::Value;
 
-/// The part of `InitializeParams` that this server reads. The capabilities of the editor are not read, so that editors newer
-/// than the types of `lsp_types` work as well.
+/// The part of `InitializeParams` that this server reads. The capabilities of the editor are not parsed, so that editors
+/// newer than the types of `lsp_types` work as well.
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct ClientSetup {
@@ -18,9 +20,32 @@ pub(super) struct ClientSetup {
     workspace_folders: Option<Vec<WorkspaceFolder>>,
     /// The settings of this server.
     pub(super) initialization_options: Option<Value>,
+    /// What the editor can do. Only single entries are read.
+    capabilities: Option<Value>,
+}
+
+/// What the editor can do at the request of the server.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct EditorSupport {
+    /// Whether it applies edits.
+    pub(super) applies_edits: bool,
+    /// Whether it asks for lenses again.
+    pub(super) refreshes_lenses: bool,
 }
 
 impl ClientSetup {
+    /// What the editor can do.
+    pub(super) fn support(&self) -> EditorSupport {
+        let can = |path: &str| {
+            self.capabilities.as_ref().and_then(|all| all.pointer(path)).and_then(Value::as_bool)
+                == Some(true)
+        };
+        EditorSupport {
+            applies_edits: can("/workspace/applyEdit"),
+            refreshes_lenses: can("/workspace/codeLens/refreshSupport"),
+        }
+    }
+
     /// The folders that are open in the editor.
     pub(super) fn roots(&self) -> Vec<&Uri> {
         match self.workspace_folders.as_deref() {
@@ -37,11 +62,15 @@ pub(super) struct EditorSettings {
     pub(super) units: bool,
     /// Whether labs are run when a lesson is saved.
     pub(super) run_on_save: bool,
+    /// Whether the results of runs are displayed above them.
+    pub(super) lens_values: bool,
+    /// Whether claims are offered for numbers without one.
+    pub(super) lens_proofs: bool,
 }
 
 impl Default for EditorSettings {
     fn default() -> EditorSettings {
-        EditorSettings { units: false, run_on_save: true }
+        EditorSettings { units: false, run_on_save: true, lens_values: true, lens_proofs: true }
     }
 }
 
@@ -60,6 +89,10 @@ impl EditorSettings {
         let units = settings.inlay_hints.and_then(|hints| hints.units);
         self.units = units.unwrap_or(self.units);
         self.run_on_save = settings.run_on_save.unwrap_or(self.run_on_save);
+        if let Some(lens) = settings.code_lens {
+            self.lens_values = lens.values.unwrap_or(self.lens_values);
+            self.lens_proofs = lens.proofs.unwrap_or(self.lens_proofs);
+        }
         Ok(())
     }
 }
@@ -70,6 +103,14 @@ impl EditorSettings {
 struct ClientSettings {
     inlay_hints: Option<InlayHintSettings>,
     run_on_save: Option<bool>,
+    code_lens: Option<CodeLensSettings>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+struct CodeLensSettings {
+    values: Option<bool>,
+    proofs: Option<bool>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -96,6 +137,15 @@ pub(super) fn initialize_result() -> InitializeResult {
         code_action_kinds: Some(vec![CodeActionKind::QUICKFIX, CodeActionKind::SOURCE_FIX_ALL]),
         ..CodeActionOptions::default()
     };
+    let signature_help = SignatureHelpOptions {
+        trigger_characters: Some(["(", ","].map(String::from).to_vec()),
+        retrigger_characters: None,
+        work_done_progress_options: Default::default(),
+    };
+    let commands = ExecuteCommandOptions {
+        commands: [CHECK, PROVE].map(String::from).to_vec(),
+        work_done_progress_options: Default::default(),
+    };
     let capabilities = ServerCapabilities {
         position_encoding: Some(PositionEncodingKind::UTF16),
         text_document_sync: Some(TextDocumentSyncCapability::Options(sync)),
@@ -106,6 +156,13 @@ pub(super) fn initialize_result() -> InitializeResult {
         rename_provider: Some(OneOf::Right(rename)),
         code_action_provider: Some(CodeActionProviderCapability::Options(code_actions)),
         inlay_hint_provider: Some(OneOf::Left(true)),
+        document_symbol_provider: Some(OneOf::Left(true)),
+        folding_range_provider: Some(FoldingRangeProviderCapability::Simple(true)),
+        document_formatting_provider: Some(OneOf::Left(true)),
+        document_range_formatting_provider: Some(OneOf::Left(true)),
+        signature_help_provider: Some(signature_help),
+        code_lens_provider: Some(CodeLensOptions { resolve_provider: Some(false) }),
+        execute_command_provider: Some(commands),
         ..ServerCapabilities::default()
     };
     let version = Some(env!("CARGO_PKG_VERSION").to_string());

@@ -2,29 +2,39 @@
 //! start of a lab, navigation to names of models, and fixes.
 //!
 //! * `wire`: parses messages from arbitrary bytes; `server`: the main loop; `state`: its state
-//! * `initialize`, `requests`, `notifications`: the handlers of messages
+//! * `initialize`, `requests`, `document_requests`, `commands`, `notifications`: the handlers of messages; `answers`: what requests
+//!   share
 //! * `documents`, `convert`, `context`: the documents of the editor, its positions and URIs, the models and
 //!   lessons around a document
-//! * `runs`, `diagnostic`: findings from runs on a separate thread, conversion to diagnostics
-//! * `complete`, `hover`, `names`, `rename`, `actions`, `hints`: one request each
+//! * `runs`, `proofs`: checks with runs, and claims for numbers of the text, on separate threads; `diagnostic`, `edits`:
+//!   conversion of findings and edits
+//! * `complete`, `hover`, `signature`, `names`, `rename`, `actions`, `hints`, `outline`, `lenses`: one request each
 //!
 //! What is independent of the protocol is in `labspec-assist`: findings while typing, completions, hover texts, fixes.
 
 mod actions;
+mod answers;
+mod commands;
 mod complete;
 mod context;
 mod convert;
 mod diagnostic;
+mod document_requests;
 mod documents;
+mod edits;
 mod hints;
 mod hover;
 mod initialize;
+mod lenses;
 mod names;
 mod notifications;
+mod outline;
+mod proofs;
 mod rename;
 mod requests;
 mod runs;
 mod server;
+mod signature;
 mod state;
 mod wire;
 

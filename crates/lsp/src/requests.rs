@@ -1,36 +1,35 @@
 //! Requests of the editor, and their dispatch.
 
-use super::actions::code_actions;
+use super::actions::{code_actions, proof_action};
+use super::answers::{Answer, byte_at, error, not_open, open_document};
+use super::commands::execute_command;
 use super::complete::completion_items;
 use super::convert;
-use super::documents::OpenDocument;
-use super::hints::hints;
+use super::document_requests::{
+    format_document, format_range, list_folds, list_inlay_hints, list_lenses, list_symbols,
+};
 use super::hover::hover_at_byte;
 use super::initialize::{ClientSetup, initialize_result};
 use super::names::{self, Occurrences, QualifiedName, SearchScope};
 use super::rename::{FileEdits, rename};
+use super::signature::signature_at_byte;
 use super::state::{Phase, ServerState};
-use lsp_server::{ErrorCode, Response, ResponseError};
+use lsp_server::{ErrorCode, Response};
 use lsp_types::request::{
-    CodeActionRequest, Completion, GotoDefinition, HoverRequest, Initialize, InlayHintRequest,
-    PrepareRenameRequest, References, Rename, Request, Shutdown,
+    CodeActionRequest, CodeLensRequest, Completion, DocumentSymbolRequest, ExecuteCommand,
+    FoldingRangeRequest, Formatting, GotoDefinition, HoverRequest, Initialize, InlayHintRequest,
+    PrepareRenameRequest, RangeFormatting, References, Rename, Request, Shutdown, SignatureHelpRequest,
 };
 use lsp_types::{
-    CodeActionOrCommand, CodeActionParams, CompletionItem, CompletionParams, GotoDefinitionParams,
-    GotoDefinitionResponse, Hover, HoverParams, InitializeResult, InlayHint, InlayHintParams, Location,
-    PrepareRenameResponse, ReferenceContext, RenameParams, TextDocumentIdentifier,
+    CodeActionKind, CodeActionOrCommand, CodeActionParams, CompletionItem, CompletionParams,
+    GotoDefinitionParams, GotoDefinitionResponse, Hover, HoverParams, InitializeResult, Location,
+    PrepareRenameResponse, ReferenceContext, RenameParams, SignatureHelp, SignatureHelpParams,
     TextDocumentPositionParams,
 };
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-
-type Answer<T> = Result<T, ResponseError>;
-
-fn error(code: ErrorCode, message: impl Into<String>) -> ResponseError {
-    ResponseError { code: code as i32, message: message.into(), data: None }
-}
 
 /// Returns the response to any request.
 pub(super) fn answer(state: &mut ServerState<'_>, request: lsp_server::Request) -> Response {
@@ -72,7 +71,14 @@ fn dispatch(state: &mut ServerState<'_>, method: &str, params: Value) -> Answer<
         PrepareRenameRequest::METHOD => respond(state, method, params, prepare_rename),
         Rename::METHOD => respond(state, method, params, rename_at),
         CodeActionRequest::METHOD => respond(state, method, params, list_code_actions),
+        SignatureHelpRequest::METHOD => respond(state, method, params, sign_at),
         InlayHintRequest::METHOD => respond(state, method, params, list_inlay_hints),
+        DocumentSymbolRequest::METHOD => respond(state, method, params, list_symbols),
+        FoldingRangeRequest::METHOD => respond(state, method, params, list_folds),
+        Formatting::METHOD => respond(state, method, params, format_document),
+        RangeFormatting::METHOD => respond(state, method, params, format_range),
+        CodeLensRequest::METHOD => respond(state, method, params, list_lenses),
+        ExecuteCommand::METHOD => respond(state, method, params, execute_command),
         _ => Err(error(ErrorCode::MethodNotFound, format!("unknown method `{method}`"))),
     }
 }
@@ -95,25 +101,12 @@ fn respond<P: DeserializeOwned, R: Serialize>(
 
 fn initialize(state: &mut ServerState<'_>, setup: ClientSetup) -> Answer<InitializeResult> {
     state.phase = Phase::Running;
+    state.editor = setup.support();
     state.open_folders(&setup.roots());
     if let Some(settings) = setup.initialization_options {
         state.update_settings(settings).map_err(|e| error(ErrorCode::InternalError, e.to_string()))?;
     }
     Ok(initialize_result())
-}
-
-fn not_open() -> ResponseError {
-    error(ErrorCode::InvalidParams, "this document is not open")
-}
-
-fn open_document<'s>(state: &'s ServerState<'_>, id: &TextDocumentIdentifier) -> Answer<&'s OpenDocument> {
-    state.documents.get(id.uri.as_str()).ok_or_else(not_open)
-}
-
-/// The byte of the document to which a request refers.
-fn byte_at(state: &ServerState<'_>, params: &TextDocumentPositionParams) -> Answer<usize> {
-    let document = open_document(state, &params.text_document)?;
-    Ok(convert::byte_offset(document.content.file.text(), params.position))
 }
 
 fn complete_at(state: &mut ServerState<'_>, params: CompletionParams) -> Answer<Vec<CompletionItem>> {
@@ -128,6 +121,13 @@ fn hover_at(state: &mut ServerState<'_>, params: HoverParams) -> Answer<Option<H
     let byte = byte_at(state, &at)?;
     let (document, context) = state.document_in_context(&at.text_document.uri).ok_or_else(not_open)?;
     Ok(hover_at_byte(document, context, byte))
+}
+
+fn sign_at(state: &mut ServerState<'_>, params: SignatureHelpParams) -> Answer<Option<SignatureHelp>> {
+    let at = params.text_document_position_params;
+    let byte = byte_at(state, &at)?;
+    let (document, context) = state.document_in_context(&at.text_document.uri).ok_or_else(not_open)?;
+    Ok(signature_at_byte(document, context, byte))
 }
 
 /// The name at a position, and whether the element gets its name there.
@@ -236,18 +236,14 @@ fn list_code_actions(
         let uri = params.text_document.uri.as_str();
         state.check_documents().map_err(|e| error(ErrorCode::InternalError, format!("{uri}: {e}")))?;
     }
+    let proves = state.settings.lens_proofs && state.editor.applies_edits;
     let (document, context) = state.document_in_context(&params.text_document.uri).ok_or_else(not_open)?;
     let lesson = document.content.read_lesson(context);
     let only = params.context.only.as_deref();
-    Ok(code_actions(document, lesson.as_deref(), &span, only, &context.models))
-}
-
-fn list_inlay_hints(state: &mut ServerState<'_>, params: InlayHintParams) -> Answer<Vec<InlayHint>> {
-    if !state.settings.units {
-        return Ok(Vec::new());
+    let mut all = code_actions(document, lesson.as_deref(), &span, only, &context.models);
+    let is_requested = only.is_none_or(|kinds| kinds.contains(&CodeActionKind::QUICKFIX));
+    if let Some(lesson) = lesson.filter(|_| proves && is_requested) {
+        all.extend(proof_action(document, &lesson, &span));
     }
-    let document = open_document(state, &params.text_document)?;
-    let span = convert::byte_span(document.content.file.text(), params.range);
-    let (document, context) = state.document_in_context(&params.text_document.uri).ok_or_else(not_open)?;
-    Ok(hints(document, context, &span))
+    Ok(all)
 }

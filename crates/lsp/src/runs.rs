@@ -1,4 +1,4 @@
-//! Findings that require runs, computed on a separate thread. It is started when a lesson is saved, and
+//! Findings that require runs, and the results of the runs, computed on a separate thread. It is started when a lesson is saved, and
 //! cancelled when the text changes.
 
 use labspec::bind::scene::Models;
@@ -8,6 +8,7 @@ use labspec::interrupt;
 use labspec::lint::load_lesson_at;
 use labspec::source::{SourceFile, Sources};
 use labspec::threads;
+use labspec_assist::{RunValues, reported, run_values};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -19,7 +20,8 @@ pub(super) struct FinishedJob {
     pub(super) job: u64,
     pub(super) uri: String,
     pub(super) version: i32,
-    pub(super) findings: Vec<Finding>,
+    /// The findings, and the results of the runs; `None` if a panic ended the check.
+    pub(super) outcome: Option<(Vec<Finding>, RunValues)>,
 }
 
 /// A check in progress.
@@ -44,13 +46,15 @@ impl RunningCheck {
         let (stop, uri) = (Arc::new(AtomicBool::new(false)), uri.to_string());
         let (asked, document) = (stop.clone(), uri.clone());
         let work = move || {
-            let findings = interrupt::until(asked.clone(), || {
+            let check = || {
                 let lesson = load_lesson_at(file, &path, &sources, models.folder());
-                check::check_lesson(lesson, &models, CheckLevel::FULL).findings
-            });
+                let checked = check::check_lesson(lesson, &models, CheckLevel::FULL);
+                (reported(&checked), run_values(&checked))
+            };
+            let outcome = threads::catch_panic(|| interrupt::until(asked.clone(), check)).ok();
             // The results of a cancelled check are discarded.
             if !asked.load(Ordering::Relaxed) {
-                done(FinishedJob { job: number, uri: document, version, findings });
+                done(FinishedJob { job: number, uri: document, version, outcome });
             }
         };
         threads::checking().spawn(work).ok()?;

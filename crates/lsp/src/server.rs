@@ -57,6 +57,7 @@ fn run(state: &mut ServerState<'_>, events: &Receiver<ServerEvent>) -> io::Resul
         };
         match event {
             ServerEvent::Finished(job) => state.finish_runs(job)?,
+            ServerEvent::Proved(proof) => state.finish_proof(proof)?,
             ServerEvent::Incoming(Incoming::End) => return Ok(state.phase == Phase::ShutDown),
             ServerEvent::Incoming(Incoming::Bad(message)) => {
                 let error = ResponseError { code: ErrorCode::ParseError as i32, message, data: None };
@@ -78,7 +79,7 @@ fn run(state: &mut ServerState<'_>, events: &Receiver<ServerEvent>) -> io::Resul
                     handled.unwrap_or(Ok(()))?;
                 }
             }
-            // This server sends no requests, so responses are ignored.
+            // Nothing depends on the responses of the editor.
             ServerEvent::Incoming(Incoming::Message(Message::Response(_))) => {}
         }
     }

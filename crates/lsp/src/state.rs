@@ -4,20 +4,26 @@ use super::context::{ModelContexts, WorkspaceRoot};
 use super::convert;
 use super::diagnostic::diagnostic;
 use super::documents::OpenDocument;
-use super::initialize::EditorSettings;
+use super::edits::workspace_edit;
+use super::initialize::{EditorSettings, EditorSupport};
+use super::proofs::{FinishedProof, ProofRequest, RunningProof};
 use super::runs::{FinishedJob, RunningCheck};
 use super::wire::{self, Incoming};
 use labspec::finding::Finding;
 use labspec::lint::{ModelFolder, links_to};
 use labspec::source::MAX_FILE;
-use labspec::spec::{FileKind, Lesson, Other, kind_of};
-use labspec_assist::Context;
-use lsp_types::notification::{LogMessage, Notification, PublishDiagnostics};
-use lsp_types::{LogMessageParams, MessageType, PublishDiagnosticsParams, Uri};
+use labspec::spec::{FileKind, Lesson, kind_of};
+use labspec_assist::{Context, RunValues};
+use lsp_types::notification::{LogMessage, Notification, PublishDiagnostics, ShowMessage};
+use lsp_types::request::{ApplyWorkspaceEdit, CodeLensRefresh, Request};
+use lsp_types::{
+    ApplyWorkspaceEditParams, LogMessageParams, MessageType, PublishDiagnosticsParams, ShowMessageParams, Uri,
+};
 use serde::Serialize;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::io::{self, Write};
+use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::Arc;
@@ -37,6 +43,7 @@ pub struct CourseConfig<'c> {
 pub(super) enum ServerEvent {
     Incoming(Incoming),
     Finished(FinishedJob),
+    Proved(FinishedProof),
 }
 
 /// The phase of the session.
@@ -60,9 +67,16 @@ pub(super) struct ServerState<'c> {
     /// The folders that are open in the editor.
     pub(super) folders: Vec<WorkspaceRoot>,
     pub(super) settings: EditorSettings,
+    /// What the editor can do.
+    pub(super) editor: EditorSupport,
     job: Option<RunningCheck>,
-    /// The number of checks that were started.
+    /// The documents whose runs start after those of the current check.
+    waiting: Vec<String>,
+    proof: Option<RunningProof>,
+    /// The number of checks and searches that were started.
     jobs: u64,
+    /// The number of requests that were sent to the editor.
+    requests: u64,
 }
 
 impl<'c> ServerState<'c> {
@@ -80,8 +94,12 @@ impl<'c> ServerState<'c> {
             contexts: ModelContexts::default(),
             folders: Vec::new(),
             settings: EditorSettings::default(),
+            editor: EditorSupport::default(),
             job: None,
+            waiting: Vec::new(),
+            proof: None,
             jobs: 0,
+            requests: 0,
         }
     }
 
@@ -106,6 +124,19 @@ impl<'c> ServerState<'c> {
         let params = LogMessageParams { typ: MessageType::WARNING, message };
         let params = serde_json::to_value(params)?;
         self.send(&lsp_server::Notification { method: LogMessage::METHOD.to_string(), params })
+    }
+
+    /// Shows a message to the user.
+    fn show(&mut self, message: String) -> io::Result<()> {
+        let params = serde_json::to_value(ShowMessageParams { typ: MessageType::INFO, message })?;
+        self.send(&lsp_server::Notification { method: ShowMessage::METHOD.to_string(), params })
+    }
+
+    /// Sends a request to the editor. Nothing depends on its response.
+    fn request(&mut self, method: &str, params: Value) -> io::Result<()> {
+        self.requests += 1;
+        let id = lsp_server::RequestId::from(format!("labspec-{}", self.requests));
+        self.send(&lsp_server::Request { id, method: method.to_string(), params })
     }
 
     /// Applies settings from the editor. Invalid settings are logged.
@@ -155,11 +186,12 @@ impl<'c> ServerState<'c> {
     pub(super) fn mark_readers_stale(&mut self, path: &Path) {
         let sources = self.contexts.sources();
         for document in self.documents.values_mut() {
-            let is_this = |o: &Other| {
-                let other = Path::new(&o.path);
-                sources.real(other).as_deref().unwrap_or(other) == path
+            let is_this = |other: &Path| sources.real(other).as_deref().unwrap_or(other) == path;
+            let reads = |lesson: &Arc<Lesson>| {
+                lesson.others.iter().any(|other| is_this(Path::new(&other.path)))
+                    || lesson.data.iter().any(|file| is_this(&file.path))
+                    || links_to(lesson, path)
             };
-            let reads = |lesson: &Arc<Lesson>| lesson.others.iter().any(is_this) || links_to(lesson, path);
             if document.content.path != path && document.content.lesson.as_ref().is_some_and(reads) {
                 document.content.lesson = None;
                 document.stale = true;
@@ -179,13 +211,32 @@ impl<'c> ServerState<'c> {
         self.contexts.forget();
         for document in self.documents.values_mut() {
             document.content.forget_models();
+            document.values = RunValues::default();
             document.stale = true;
         }
     }
 
-    /// Runs the labs of a document on a separate thread.
+    /// Runs the labs of a document on a separate thread, after the check of another document if there is one.
     pub(super) fn start_runs(&mut self, uri: &str) {
-        self.cancel_runs();
+        self.waiting.retain(|other| other != uri);
+        if self.job.as_ref().is_some_and(|job| job.uri != uri) {
+            return self.waiting.push(uri.to_string());
+        }
+        if let Some(job) = self.job.take() {
+            job.stop();
+        }
+        self.run_now(uri);
+    }
+
+    /// Starts the check of the next document that waits.
+    fn run_next(&mut self) {
+        while self.job.is_none() && !self.waiting.is_empty() {
+            let uri = self.waiting.remove(0);
+            self.run_now(&uri);
+        }
+    }
+
+    fn run_now(&mut self, uri: &str) {
         let Some(document) = self.documents.get(uri) else { return };
         let context = self.contexts.model_context(&document.content.path, self.course.models);
         let context = (context.models.clone(), context.sources.clone());
@@ -204,25 +255,88 @@ impl<'c> ServerState<'c> {
             return Ok(());
         }
         self.job = None;
+        self.run_next();
         let Some(document) =
             self.documents.get_mut(&finished.uri).filter(|d| d.version == finished.version && !d.stale)
         else {
             return Ok(());
         };
-        document.content.findings = finished.findings;
+        let Some((findings, values)) = finished.outcome else { return Ok(()) };
+        document.content.findings = findings;
+        document.values = values;
         (self.course.policy)(&document.content.path, &mut document.content.findings);
-        self.publish(&finished.uri)
+        self.publish(&finished.uri)?;
+        match self.editor.refreshes_lenses {
+            true => self.request(CodeLensRefresh::METHOD, Value::Null),
+            false => Ok(()),
+        }
     }
 
+    /// Searches claims for numbers of a document on a separate thread.
+    pub(super) fn start_proof(&mut self, uri: &str, numbers: Vec<Range<usize>>) {
+        self.cancel_proof();
+        let Some(document) = self.documents.get(uri) else { return };
+        let context = self.contexts.model_context(&document.content.path, self.course.models);
+        let context = (context.models.clone(), context.sources.clone());
+        self.jobs += 1;
+        let request = ProofRequest {
+            job: self.jobs,
+            uri: uri.to_string(),
+            version: document.version,
+            file: document.content.file.clone(),
+            path: document.content.path.clone(),
+            numbers,
+        };
+        let sender = self.sender.clone();
+        // The channel is closed if the server has ended.
+        let done = move |finished| drop(sender.send(ServerEvent::Proved(finished)));
+        self.proof = RunningProof::start(request, context, done);
+    }
+
+    /// Asks the editor to apply the claims that were found, unless the text has changed.
+    pub(super) fn finish_proof(&mut self, finished: FinishedProof) -> io::Result<()> {
+        if self.proof.as_ref().is_none_or(|proof| proof.number != finished.job) {
+            return Ok(());
+        }
+        self.proof = None;
+        let Some(document) = self.documents.get(&finished.uri).filter(|d| d.version == finished.version)
+        else {
+            return Ok(());
+        };
+        match finished.found {
+            Err(why) => self.show(format!("nothing is claimed: {why}")),
+            Ok(edit) => {
+                let label = Some("labspec: claim numbers".to_string());
+                let edit = workspace_edit(document, edit);
+                let params = serde_json::to_value(ApplyWorkspaceEditParams { label, edit })?;
+                self.request(ApplyWorkspaceEdit::METHOD, params)
+            }
+        }
+    }
+
+    /// Cancels the runs of all checks and searches.
     pub(super) fn cancel_runs(&mut self) {
+        self.waiting.clear();
         if let Some(job) = self.job.take() {
             job.stop();
+        }
+        self.cancel_proof();
+    }
+
+    fn cancel_proof(&mut self) {
+        if let Some(proof) = self.proof.take() {
+            proof.stop();
         }
     }
 
     pub(super) fn cancel_runs_of(&mut self, uri: &str) {
-        if self.job.as_ref().is_some_and(|job| job.uri == uri) {
-            self.cancel_runs();
+        self.waiting.retain(|other| other != uri);
+        if let Some(job) = self.job.take_if(|job| job.uri == uri) {
+            job.stop();
+            self.run_next();
+        }
+        if let Some(proof) = self.proof.take_if(|proof| proof.uri == uri) {
+            proof.stop();
         }
     }
 

@@ -40,6 +40,8 @@ pub struct HostTerms {
     pub input: (&'static str, &'static str),
     /// Where a variable is first stored; `{name}` is the variable.
     pub store: &'static str,
+    /// How an author defines a number of their own, in an expression; `{name}` is the number.
+    pub own_number: &'static str,
     /// Where a number is rounded for a reader, as an alternative to another way.
     pub rounding: &'static str,
     /// The call that recomputes what depends on a parameter.
@@ -67,6 +69,7 @@ impl HostTerms {
         split: "split it",
         input: ("the host provides it to some texts only", "store the value in `ctx`"),
         store: "store it first, as `ctx.{name} = 0`",
+        own_number: "store it as `ctx.{name} = …` in a text of statements, and read `ctx.{name}` here",
         rounding: "",
         recompute: "a recomputation of the derived values",
     };

@@ -80,9 +80,11 @@ fn run_lab(lab: &Lab, models: Option<&Models>) -> Result<LabRuns, String> {
     match &bound {
         Some((model, programs, 0)) => {
             let options = RunOptions::default();
-            match compared_runs(lab, model, programs, &options).map_err(|e| e.0)? {
+            match compared_runs(lab, model, programs, &options).map_err(|e| e.to_string())? {
                 Some(runs) => Ok(LabRuns::Compared(runs)),
-                None => watched_run(lab, model, programs, &options).map(LabRuns::One).map_err(|e| e.0),
+                None => {
+                    watched_run(lab, model, programs, &options).map(LabRuns::One).map_err(|e| e.to_string())
+                }
             }
         }
         _ => Err(first()),

@@ -93,7 +93,7 @@ pub(super) fn precision(a: &PrecisionArguments) -> Result<CommandOutcome, Failur
     let mut report_progress = |text: &str| progress.report(text);
     let report =
         compare(&target.lab, &target.model, &target.programs, &options, &mut findings, &mut report_progress)
-            .map_err(|e| e.0)?;
+            .map_err(|e| e.to_string())?;
     drop(progress);
     if let Some(f) = findings.first() {
         return Err(format!(

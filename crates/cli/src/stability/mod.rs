@@ -66,7 +66,7 @@ pub(super) fn stability(a: &StabilityArguments) -> Result<CommandOutcome, Failur
     let progress = Progress::new(a.format == StabilityFormat::Human);
     let mut report_progress = |text: &str| progress.report(text);
     let report = probe(&target.lab, &target.model, &target.programs, &options, &mut report_progress)
-        .map_err(|e| e.0)?;
+        .map_err(|e| e.to_string())?;
     drop(progress);
     if let (Some(file), Some(map)) = (&a.png, &report.map) {
         write_png(file, &chart(map, target.lab.title()))?;

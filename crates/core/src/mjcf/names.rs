@@ -10,6 +10,9 @@ use crate::mjcf::text::diagnostic::{Diagnostics, nearest, shorten_name};
 use crate::mjcf::text::tree::{Attribute, ElementNode, ElementTree};
 use crate::mjcf::text::values::Value;
 
+/// The advice for a name that is used several times.
+const IN_ALL_PLACES: &str = "write the same name in all places";
+
 /// Named elements, by kind and name.
 #[derive(Debug, Default)]
 pub(crate) struct NameTable<'t> {
@@ -75,12 +78,22 @@ impl<'t> NameTable<'t> {
         if report.incomplete {
             return; // the object may have been left out
         }
-        let error = report.error(
-            rules::UNKNOWN_NAME,
-            span,
-            format!("there is no {kind} named {}", shorten_name(name)),
-        );
-        match nearest(name, self.of_kind(kind)) {
+        let message = format!("there is no {kind} named {}", shorten_name(name));
+        // Several uses of one name are one mistake: of all uses, or of the definition.
+        if let Some(first) = report.same(rules::UNKNOWN_NAME, &message) {
+            // The search for a similar name is made once, however often the name is used.
+            let is_second = first
+                .help
+                .as_ref()
+                .is_some_and(|help| help.starts_with("did you mean") && !help.ends_with(IN_ALL_PLACES));
+            if let Some(near) = is_second.then(|| nearest(name, self.of_kind(kind))).flatten() {
+                first.help = Some(format!("did you mean `{near}`? {IN_ALL_PLACES}"));
+            }
+            return;
+        }
+        let near = nearest(name, self.of_kind(kind));
+        let error = report.error(rules::UNKNOWN_NAME, span, message);
+        match near {
             Some(near) => error.help(format!("did you mean `{near}`?")),
             None if self.of_kind(kind).next().is_none() => {
                 error.help(format!("give it a name: no {kind} of this model has one"))

@@ -151,9 +151,9 @@ impl Model {
     }
 }
 
-/// Object kinds with named objects: kind, MuJoCo's number, the list of names.
+/// Object kinds with named objects: kind, MuJoCo's number, the list of names, MuJoCo's prefix (`jnt` of `njnt`).
 macro_rules! objects {
-    ($($kind:ident = $number:literal, $list:ident;)*) => {
+    ($($kind:ident = $number:literal, $list:ident, $prefix:literal;)*) => {
         /// Kinds of named objects, with MuJoCo's numbers (mjtObj).
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         #[allow(missing_docs)] // the object kinds
@@ -164,6 +164,16 @@ macro_rules! objects {
             /// A degree of freedom. It has no name.
             Dof = 4,
             $($kind = $number,)*
+        }
+
+        impl Obj {
+            /// The kinds whose objects can have names, with MuJoCo's prefixes (`jnt` of `njnt` and `jnt_type`).
+            pub const PREFIXES: &[(&str, Obj)] = &[("body", Obj::Body), $(($prefix, Obj::$kind)),*];
+
+            /// The kind with a prefix, if there is one.
+            pub fn from_prefix(prefix: &str) -> Option<Obj> {
+                Obj::PREFIXES.iter().find(|(name, _)| *name == prefix).map(|(_, kind)| *kind)
+            }
         }
 
         /// Names by object kind, in id order; an object without a name has the empty string.
@@ -198,26 +208,26 @@ macro_rules! objects {
     };
 }
 objects! {
-    Joint = 3, joint;
-    Geom = 5, geom;
-    Site = 6, site;
-    Camera = 7, camera;
-    Light = 8, light;
-    Mesh = 10, mesh;
-    Skin = 11, skin;
-    HField = 12, hfield;
-    Texture = 13, texture;
-    Material = 14, material;
-    Pair = 15, pair;
-    Exclude = 16, exclude;
-    Equality = 17, equality;
-    Tendon = 18, tendon;
-    Actuator = 19, actuator;
-    Sensor = 20, sensor;
-    Numeric = 21, numeric;
-    Text = 22, text;
-    Tuple = 23, tuple;
-    Key = 24, key;
+    Joint = 3, joint, "jnt";
+    Geom = 5, geom, "geom";
+    Site = 6, site, "site";
+    Camera = 7, camera, "cam";
+    Light = 8, light, "light";
+    Mesh = 10, mesh, "mesh";
+    Skin = 11, skin, "skin";
+    HField = 12, hfield, "hfield";
+    Texture = 13, texture, "tex";
+    Material = 14, material, "mat";
+    Pair = 15, pair, "pair";
+    Exclude = 16, exclude, "exclude";
+    Equality = 17, equality, "eq";
+    Tendon = 18, tendon, "tendon";
+    Actuator = 19, actuator, "actuator";
+    Sensor = 20, sensor, "sensor";
+    Numeric = 21, numeric, "numeric";
+    Text = 22, text, "text";
+    Tuple = 23, tuple, "tuple";
+    Key = 24, key, "key";
 }
 
 impl Names {

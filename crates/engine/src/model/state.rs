@@ -17,6 +17,13 @@ macro_rules! elements {
         fn part_mut(d: &mut Fields, bit: usize) -> ViewMut<'_> {
             match bit { $($bit => d.$field.view_mut(),)* _ => ViewMut::Fixed }
         }
+        /// Copies the parts of a signature; the first part with another length is an error.
+        fn copy_parts(from: &Fields, to: &mut Fields, sig: i32) -> Result<(), usize> {
+            $(if sig & (1 << $bit) != 0 && !copy_view(from.$field.view(), to.$field.view_mut()) {
+                return Err($bit);
+            })*
+            Ok(())
+        }
     };
 }
 elements! {
@@ -144,15 +151,20 @@ pub fn extract(m: &Model, from: &[f64], sig: i32, out: &mut [f64], to: i32) -> R
 
 /// Copies parts of a state between data of the same model (`mj_copyState`).
 pub fn copy(m: &Model, from: &Fields, to: &mut Fields, sig: i32) -> Result<(), StateError> {
-    for bit in bits(sig)? {
-        match (part(from, bit), part_mut(to, bit)) {
-            (View::F64(x), ViewMut::F64(out)) if x.len() == out.len() => out.copy_from_slice(x),
-            (View::Bool(x), ViewMut::Bool(out)) if x.len() == out.len() => out.copy_from_slice(x),
-            (x, _) if x.is_empty() => {}
-            (x, _) => return Err(StateError::Length { expected: length(m, bit), found: x.len() }),
-        }
+    let _ = bits(sig)?;
+    copy_parts(from, to, sig)
+        .map_err(|bit| StateError::Length { expected: length(m, bit), found: part(from, bit).len() })
+}
+
+/// Whether a part could be copied.
+#[inline]
+fn copy_view(from: View<'_>, to: ViewMut<'_>) -> bool {
+    match (from, to) {
+        (View::F64(x), ViewMut::F64(out)) if x.len() == out.len() => out.copy_from_slice(x),
+        (View::Bool(x), ViewMut::Bool(out)) if x.len() == out.len() => out.copy_from_slice(x),
+        (x, _) => return x.is_empty(),
     }
-    Ok(())
+    true
 }
 
 /// The bits of a signature, ascending.

@@ -5,7 +5,7 @@ use super::refuse;
 use crate::ast::{Declarator, Expr, ExprKind, Name, Pattern, StmtKind};
 use crate::lex::TokenKind;
 use crate::rules;
-use labspec_finding::{Finding, Span};
+use labspec_finding::{Finding, Span, distance};
 
 impl Parser<'_> {
     /// A declaration in place of `class name`, so that uses of the name are not reported as further errors.
@@ -15,6 +15,24 @@ impl Parser<'_> {
         let value = Some(Expr { kind: ExprKind::Error, span });
         let target = Pattern::Name(Name { text: (*text).to_owned(), span });
         Some(StmtKind::Declare { constant: true, declarators: vec![Declarator { target, value }] })
+    }
+
+    /// Reports a misspelt `const` or `let` before a name: `cosnt a = 1`. The declaration is parsed as if it were right.
+    pub(super) fn reports_misspelt_declaration(&mut self) -> bool {
+        let (TokenKind::Word(word), TokenKind::Word(_)) = (self.peek(), self.peek_at(1)) else {
+            return false;
+        };
+        let word = *word;
+        let Some(right) = ["const", "let"].into_iter().find(|right| distance(word, right) == 1) else {
+            return false;
+        };
+        let span = self.span();
+        self.diagnostics.push(
+            Finding::error(rules::UNKNOWN_NAME, span, format!("unknown name `{word}`"))
+                .help(format!("did you mean `{right}`?"))
+                .guess(span, right),
+        );
+        true
     }
 
     /// Parses `const a = 1, b = 2` and the end of the statement.

@@ -61,6 +61,9 @@ pub(crate) fn statements(source: &str, host_terms: &'static HostTerms, tells: bo
 
 /// The findings in source order, limited in number.
 pub(crate) fn in_order(mut found: Vec<Finding>) -> Vec<Finding> {
+    // A string that is not closed contains the brackets behind it, so the brackets before it seem to be open.
+    let open_string = found.iter().filter(|d| d.code == rules::BAD_STRING.code).map(|d| d.span.start).max();
+    found.retain(|d| d.code != rules::UNCLOSED.code || open_string.is_none_or(|at| d.span.start > at));
     order::sort_by_key(&mut found, |d| (d.span.start, d.span.end));
     if found.len() > MAX_DIAGNOSTICS {
         found.truncate(MAX_DIAGNOSTICS);

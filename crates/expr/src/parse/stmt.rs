@@ -60,6 +60,7 @@ impl Parser<'_> {
         };
         match word {
             "const" | "let" | "var" => self.declaration(),
+            _ if self.reports_misspelt_declaration() => self.declaration(),
             "if" => self.condition(),
             "for" => self.for_loop(),
             "while" => self.while_loop(),
@@ -235,7 +236,8 @@ impl Parser<'_> {
             TokenKind::Symbol(";") => None,
             _ => {
                 let span = self.span();
-                let declares = ["const", "let", "var"].iter().any(|w| self.is_word(w));
+                let declares = ["const", "let", "var"].iter().any(|w| self.is_word(w))
+                    || self.reports_misspelt_declaration();
                 let kind = if declares { self.declarators()?.0 } else { StmtKind::Expr(self.sequence()?) };
                 Some(Box::new(Stmt { kind, span: span.to(self.last_span()) }))
             }

@@ -2,6 +2,7 @@
 //! access.
 
 use super::programs::{ActionProgram, Bound, ControlProgram, Probe, Programs, include};
+use super::unknown_names::UnknownNames;
 use crate::finding::{Finding, Fix};
 use crate::json::{Scalar, fix_in_code};
 use crate::rules;
@@ -28,7 +29,14 @@ impl Programs {
         let names = ModelNames::new(model, Scope::Lab).with(functions);
         let mut globals = Globals::new();
         let mut texts: Vec<(ProgramId, Text)> = Vec::new();
-        let mut work = LabCompiler { names: &names, globals: &mut globals, texts: &mut texts, findings };
+        let mut unknown = UnknownNames::default();
+        let mut work = LabCompiler {
+            names: &names,
+            globals: &mut globals,
+            texts: &mut texts,
+            unknown: &mut unknown,
+            findings,
+        };
 
         let setup = lab.setup.as_ref().and_then(|t| work.statements(t, None));
         let controls = lab.controls.iter().map(|c| (c.label.value.clone(), work.control(c))).collect();
@@ -48,6 +56,7 @@ impl Programs {
                 bound: work.expression(&readout.expr),
             });
         }
+        unknown.join(findings);
         for (id, d) in globals.unset(&HOST_TERMS) {
             if let Some((_, text)) = texts.iter().find(|(t, _)| *t == id) {
                 findings.push(to_finding(&d, text));
@@ -81,6 +90,7 @@ struct LabCompiler<'a> {
     names: &'a ModelNames<'a>,
     globals: &'a mut Globals,
     texts: &'a mut Vec<(ProgramId, Text)>,
+    unknown: &'a mut UnknownNames,
     findings: &'a mut Vec<Finding>,
 }
 
@@ -101,6 +111,7 @@ impl LabCompiler<'_> {
     }
 
     fn keep(&mut self, text: &Text, compiled: Compiled) -> Option<Bound> {
+        self.unknown.add(text, &compiled.diagnostics, self.findings.len());
         self.findings.extend(compiled.diagnostics.iter().map(|d| to_finding(d, text)));
         self.texts.push((compiled.id, text.clone()));
         compiled.program.map(|program| Bound { text: text.clone(), program })

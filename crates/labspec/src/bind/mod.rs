@@ -9,6 +9,7 @@ mod model_file;
 pub mod parts;
 mod programs;
 pub mod scene;
+mod unknown_names;
 
 pub use compile::scalar;
 pub use compile::to_finding;

@@ -2,10 +2,11 @@
 
 use super::partners::{self, Partners};
 use super::resolved_labs::{ResolvedLabs, resolve_labs};
-use super::{PreparedLab, claim_id, setconst};
+use super::{PreparedLab, claim_id, prepared_lab, setconst};
 use crate::bind::scene::Models;
 use crate::finding::Finding;
 use crate::ledger::State;
+use crate::rules;
 use crate::spec::{Lab, Lesson, Question, QuestionKind, Remark, Verify};
 use crate::verify::{self, Answer, BoundLab, BoundVerify, Judgement, QuoteState, RenderedText, RunCache};
 use serde::{Deserialize, Serialize};
@@ -31,6 +32,14 @@ impl Claim {
             || judgement.quotes.iter().any(|q| q.state != QuoteState::Right)
             || judgement.exact.iter().any(|e| doubtful(e.state))
     }
+}
+
+/// The spans of the `verify` objects of questions whose answers are true.
+pub(super) fn verified_answers(claims: &[Claim]) -> Vec<Range<usize>> {
+    let is_true = |claim: &&Claim| {
+        claim.judgement.answer.as_ref().is_some_and(|answer| matches!(answer.verdict.state(), State::True(_)))
+    };
+    claims.iter().filter(is_true).map(|claim| claim.span.clone()).collect()
 }
 
 /// The owner of claims.
@@ -196,14 +205,19 @@ impl ClaimChecker<'_> {
         rendered: &RenderedText,
         findings: &mut Vec<Finding>,
     ) -> Judgement {
-        let mut found = Vec::new();
-        let mut judgement = self.judge(verify, lab, question, rendered, &mut found);
         // An object with errors is incomplete, so its remaining part may differ from what the author meant.
         let inside = |f: &&Finding| verify.span.start <= f.span.start && f.span.end <= verify.span.end;
         if self.lesson.findings.iter().filter(inside).any(Finding::is_error) {
-            judgement.withdraw("its `verify` has errors");
+            return verify::not_executable(self.lesson.whole(verify), question, "its `verify` has errors");
         }
+        let mut found = Vec::new();
+        let judgement = self.judge(verify, lab, question, rendered, &mut found);
         claim_id::identify(name, self.lesson.whole(verify), question, &judgement, &mut found);
+        // Several objects can use the measures of one.
+        let code = rules::MEASURE_WITHOUT_VALUE.code;
+        found.retain(|f| {
+            f.code != code || !findings.iter().any(|other| other.code == code && other.span == f.span)
+        });
         findings.extend(found);
         judgement
     }
@@ -232,6 +246,10 @@ impl ClaimChecker<'_> {
         }
         match BoundVerify::new(verify, base.as_ref(), &runs, &self.stage, findings) {
             Some(bound) => {
+                if let Some(reason) = incomplete_lab(verify, base.as_ref(), &runs) {
+                    verify::lint_verify(&bound, verify, findings);
+                    return verify::not_executable(verify, question, &reason);
+                }
                 self.stage.take_uncoupled_change();
                 let mut judgement = verify::check_verify(&bound, verify, question, rendered, findings);
                 // If no run changed a parameter without its coupled parameters, the corrected runs are the same.
@@ -243,4 +261,27 @@ impl ClaimChecker<'_> {
             None => verify::not_executable(verify, question, "its runs or measures have errors"),
         }
     }
+}
+
+/// Why the runs of a `verify` object are not what its lab describes: a program that they execute has errors, which are
+/// reported. Nothing is concluded from such runs.
+fn incomplete_lab(
+    verify: &Verify,
+    base: Option<&BoundLab<'_>>,
+    runs: &[Vec<BoundLab<'_>>],
+) -> Option<String> {
+    let reason = |scene: &BoundLab<'_>, pressed: &[&str]| {
+        if scene.lab.stop_at.as_ref().is_some_and(|stop| stop.value <= 0.0) {
+            return Some("the `stopAt` of its lab is not positive".to_string());
+        }
+        if scene.lab.unread_controls {
+            return Some("a control of its lab cannot be read".to_string());
+        }
+        prepared_lab::program_with_errors(&scene.lab, &scene.programs, pressed)
+    };
+    let of_runs = verify.runs.iter().zip(runs).find_map(|(run, scenes)| {
+        let pressed: Vec<&str> = run.press.iter().map(|(label, _)| label.as_str()).collect();
+        scenes.iter().find_map(|scene| reason(scene, &pressed))
+    });
+    of_runs.or_else(|| base.filter(|_| runs.is_empty()).and_then(|scene| reason(scene, &[])))
 }

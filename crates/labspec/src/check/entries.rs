@@ -259,10 +259,10 @@ fn lab(ran: &RanLab) -> (State, &'static str, String) {
     }
     match (tried.broke, missing.is_empty()) {
         // For a lab that breaks as expected, the runs end there.
-        (true, _) if ran.expected && ran.mistakes == 0 => {
+        (true, _) if !ran.expect.forbids() && ran.mistakes == 0 => {
             (State::True(Evidence::Simulated), "breaks", remark)
         }
-        (false, true) if ran.expected => (State::False, "does not break", remark),
+        (false, true) if ran.expect.requires() => (State::False, "does not break", remark),
         (true, _) => (State::False, "broken", remark),
         (false, false) => (State::Unchecked, "in part", remark),
         (false, true) => (State::True(Evidence::Simulated), "run", remark),
@@ -282,27 +282,27 @@ fn run(r: &RunReport, unmade: Option<&str>) -> (State, &'static str, String) {
     if let Some(reason) = unmade {
         return (State::Unchecked, "not made", reason.to_string());
     }
-    match (&r.broke, r.expected) {
-        (Some(how), true) => (State::True(Evidence::Simulated), "breaks", how.clone()),
-        (Some(how), false) => (State::False, "broken", how.clone()),
-        (None, true) => (State::False, "does not break", String::new()),
-        (None, false) => (State::True(Evidence::Simulated), "made", String::new()),
-    }
+    let (state, word) = r.outcome();
+    (state, word, r.broke.clone().unwrap_or_default())
 }
 
-/// The lines that a report prints as evidence for a claim: measures with their value at half the timestep, and the margin
-/// of each condition.
-pub fn evidence(claim: &Claim) -> Vec<String> {
+/// The value of every measure of the runs of a claim, in lines.
+pub fn measure_lines(claim: &Claim) -> Vec<String> {
     let measure = |m: &Measured| match m.halved {
         Some(x) => {
             format!("{} = {}   ({} at half the timestep)", m.name, significant(m.value), significant(x))
         }
         None => format!("{} = {}", m.name, significant(m.value)),
     };
+    claim.judgement.measures.iter().map(measure).collect()
+}
+
+/// What the condition of each option gives, in lines.
+pub fn option_lines(claim: &Claim) -> Vec<String> {
     let weights = claim.judgement.answer.iter().flat_map(|a| &a.weights);
     let weight = |w: &Weight| match w.option {
         Some(i) => format!("option {i} {}", w.describe()),
         None => format!("the answer {}", w.describe()),
     };
-    claim.judgement.measures.iter().map(measure).chain(weights.map(weight)).collect()
+    weights.map(weight).collect()
 }

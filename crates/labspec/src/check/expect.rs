@@ -27,7 +27,7 @@ const PREDICTION_RULES: [&str; 5] = [
 /// Compares the findings in the runs of one lab, those from index `first` on, with the expectation of its author. `runs` is
 /// the number of runs.
 pub(super) fn settle(lab: &Lab, runs: usize, findings: &mut Vec<Finding>, first: usize) {
-    let Some(Expect::Breaks(place)) = &lab.expect else { return };
+    let Some(expect) = &lab.expect else { return };
     let of_lab = findings.split_off(first.min(findings.len()));
     let broke = of_lab.iter().any(|f| BREAK_RULES.contains(&f.code));
     let impossible = of_lab.iter().any(|f| f.code == rules::RUN_IMPOSSIBLE.code);
@@ -35,6 +35,7 @@ pub(super) fn settle(lab: &Lab, runs: usize, findings: &mut Vec<Finding>, first:
         of_lab.into_iter().filter(|f| !BREAK_RULES.contains(&f.code) && !PREDICTION_RULES.contains(&f.code)),
     );
     // Without runs there is no evidence, and another finding reports that.
+    let Expect::Breaks(place) = expect else { return };
     if broke || impossible || runs == 0 {
         return;
     }

@@ -4,9 +4,11 @@ mod allowed;
 pub(crate) mod choices;
 mod claim_id;
 mod claims;
+mod consequences;
 mod curves;
 mod entries;
 mod expect;
+mod joined;
 mod judge;
 pub(crate) mod lab_runs;
 pub(crate) mod observations;
@@ -24,7 +26,7 @@ pub use allowed::SuppressedFinding;
 pub use claim_id::is_about;
 pub use claims::Claim;
 pub use curves::{VerifyCurves, curves};
-pub use entries::{evidence, ledger};
+pub use entries::{ledger, measure_lines, option_lines};
 pub use judge::{CrossCheck, ReferenceRecording, Request, file_name, hear};
 pub use lab_runs::Coverage;
 pub use reproduce::{Basis, ClaimBasis, LabBasis, RunSettings, basis};
@@ -38,7 +40,7 @@ use crate::bind::scene::Models;
 use crate::finding::{self, Finding, InFile, Severity};
 use crate::rules;
 use crate::source::{SourceMap, Text};
-use crate::spec::{Lab, LabAddress, Lesson, ModelSource};
+use crate::spec::{BreakExpectation, Lab, LabAddress, Lesson, ModelSource};
 use labspec_core::Model;
 use serde::{Deserialize, Serialize};
 use std::sync::{Arc, LazyLock};
@@ -59,7 +61,7 @@ pub struct RanLab {
     /// Number of errors in its code; texts with errors are not executed.
     pub mistakes: usize,
     /// Whether the lesson declares that it breaks.
-    pub expected: bool,
+    pub expect: BreakExpectation,
 }
 
 /// A lesson with all results of its check.
@@ -134,6 +136,16 @@ pub fn check_lesson(lesson: Lesson, models: &Models, level: CheckLevel) -> Check
 
 /// Binds, runs and verifies a lesson.
 pub fn run_checks(lesson: &Lesson, models: &Models, level: CheckLevel) -> LabOutcome {
+    let mut outcome = check_as_written(lesson, models, level);
+    if level == CheckLevel::FULL {
+        let check = |fixed: &Lesson| check_as_written(fixed, models, level);
+        consequences::remove_consequences(lesson, models, &mut outcome, check);
+    }
+    outcome
+}
+
+/// Binds, runs and verifies a lesson, without comparing its findings with each other.
+fn check_as_written(lesson: &Lesson, models: &Models, level: CheckLevel) -> LabOutcome {
     let mut findings = Vec::new();
     let labs = lesson.all_labs();
     let mut ready: Vec<PreparedLab<'_>> =
@@ -145,13 +157,13 @@ pub fn run_checks(lesson: &Lesson, models: &Models, level: CheckLevel) -> LabOut
     let labs = if level.labs { lab_runs::run_labs(lesson, &ready, &mut findings) } else { Vec::new() };
     deduplicate(lesson, &mut findings);
     let snapshots = snapshot::check_snapshots(lesson, &ready, level, &mut findings);
-    // An editor checks one block at a time, so it does not know the claims of the other blocks.
-    if level.claims {
-        rules::numbers_unclaimed::check_unclaimed_numbers(lesson, &mut findings);
-    }
     ready.extend(beside(lesson, models));
     let claims = if level.claims {
-        claims::check_claims(lesson, &mut ready, models, &mut findings)
+        let claims = claims::check_claims(lesson, &mut ready, models, &mut findings);
+        // An editor checks one block at a time, so it does not know the claims of the other blocks.
+        let verified = claims::verified_answers(&claims);
+        rules::numbers_unclaimed::check_unclaimed_numbers(lesson, &verified, &mut findings);
+        claims
     } else {
         claims::bind(lesson, &ready, models, &mut findings);
         Vec::new()
@@ -202,10 +214,19 @@ fn deduplicate(lesson: &Lesson, findings: &mut Vec<Finding>) {
     });
 }
 
+/// The first finding with a severity that its rule does not declare.
+fn undeclared_severity(findings: &[Finding]) -> Option<&Finding> {
+    let is_declared = |f: &Finding| rules::find(f.code).is_none_or(|rule| rule.may_be(f.severity));
+    findings.iter().find(|f| !is_declared(f))
+}
+
 /// Joins a lesson with the results of its check.
 pub fn join(lesson: Lesson, found: LabOutcome, level: CheckLevel) -> Checked {
     let LabOutcome { mut findings, labs, claims, snapshots } = found;
     let mut all = lesson.findings.clone();
+    // An editor checks one block at a time: here, all uses of a name are known.
+    joined::join_uses(&lesson, &mut findings);
+    joined::join_repeated(&lesson, &mut findings);
     crate::lint::withhold_fixes(&lesson, &mut findings);
     all.extend(findings);
     let mut allowed = allowed::suppress_allowed(&lesson, &mut all, level);
@@ -214,6 +235,7 @@ pub fn join(lesson: Lesson, found: LabOutcome, level: CheckLevel) -> Checked {
         suppressed.finding = suppressed.finding.clone().at(&lesson.file);
     }
     finding::sort(&mut all);
+    debug_assert_eq!(undeclared_severity(&all), None, "a severity that the rule does not declare");
     Checked { lesson, findings: all, labs, claims, snapshots, allowed, level }
 }
 
@@ -243,8 +265,11 @@ pub fn bind(
     let Some(model) = models.model_of_lab(lab, findings) else {
         // With a list of the model folder, a missing model is reported by the structure checks, which know the list.
         if let (Some(ModelSource::Model(name)), None) = (lab.scene(), models.folder().names()) {
-            findings.extend(rules::no_model_folder::check_folder(name, models.folder()));
-            findings.extend(rules::unknown_model::check_unlisted(name, models.folder()));
+            // What is not the name of a model is in no folder.
+            if rules::model_name::check_model_name(name, models.folder()).is_none() {
+                findings.extend(rules::no_model_folder::check_folder(name, models.folder()));
+                findings.extend(rules::unknown_model::check_unlisted(name, models.folder()));
+            }
         }
         return None;
     };

@@ -43,7 +43,10 @@ pub(super) fn resolve_labs<'r>(
 }
 
 fn scene_of<'r>(ready: &'r [PreparedLab<'r>], lab: &Lab) -> Option<BoundLab<'r>> {
-    ready.iter().find(|r| std::ptr::eq(r.lab, lab)).map(PreparedLab::scene)
+    // An object that uses another one has a copy of its inline lab.
+    let same =
+        ready.iter().find(|r| std::ptr::eq(r.lab, lab)).or_else(|| ready.iter().find(|r| *r.lab == *lab));
+    same.map(PreparedLab::scene)
 }
 
 /// The named lab. If a lab of another lesson is missing or cannot run, the reason is added to `findings`.

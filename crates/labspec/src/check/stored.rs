@@ -27,6 +27,7 @@ struct FindingFields {
     fix: Option<Fix>,
     related: Vec<Place>,
     claim: Option<Box<ClaimId>>,
+    link: Option<Box<str>>,
 }
 
 #[derive(Serialize, Deserialize)]

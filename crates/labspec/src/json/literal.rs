@@ -4,6 +4,7 @@ use super::node::{Json, Node};
 use super::parser::JsonParser;
 use super::problem::{self, Mistake, Problem};
 use crate::source::Text;
+use labspec_finding::distance;
 use std::ops::Range;
 
 impl JsonParser<'_> {
@@ -47,7 +48,8 @@ impl JsonParser<'_> {
                 }
                 if token.starts_with(|c: char| c.is_ascii_digit()) {
                     self.report(problem::number_form(range, token, None));
-                    return self.node(Json::Broken, start);
+                    let number = number_before_unit(token).and_then(|number| number.parse::<f64>().ok());
+                    return self.node(number.map_or(Json::Broken, Json::Number), start);
                 }
                 self.at = start;
                 self.bare_text()
@@ -108,6 +110,14 @@ impl JsonParser<'_> {
         let value = self.text.get(range.clone()).unwrap_or("").to_string();
         Text { value, map: crate::source::SourceMap::verbatim(range).then(self.below) }
     }
+}
+
+/// The number before a unit: 6 of `6s`.
+pub(crate) fn number_before_unit(token: &str) -> Option<&str> {
+    let (number, unit) = token.split_at(token.find(char::is_alphabetic)?);
+    let is_unit = unit.chars().all(|c| c.is_alphabetic() || matches!(c, '/' | '^' | '\u{b2}'));
+    let is_number = number.ends_with(|c: char| c.is_ascii_digit()) && number.parse::<f64>().is_ok();
+    (is_unit && is_number).then_some(number)
 }
 
 fn is_part(c: char) -> bool {
@@ -221,6 +231,8 @@ fn word(token: &str) -> Option<ForeignWord> {
         "nan" | "infinity" | "inf" | "-infinity" | "-inf" | "+infinity" | "+inf" | "-nan" | "+nan" => {
             ForeignWord::NotFinite
         }
+        misspelt if distance(misspelt, "true") == 1 => ForeignWord::Means(Json::Bool(true), "true"),
+        misspelt if distance(misspelt, "false") == 1 => ForeignWord::Means(Json::Bool(false), "false"),
         _ => return None,
     })
 }

@@ -8,6 +8,7 @@
 mod gaps;
 #[cfg(test)]
 mod law_tests;
+mod layout;
 pub(crate) mod literal;
 mod node;
 mod parse;
@@ -21,6 +22,7 @@ mod strings;
 mod tests;
 
 pub use labspec_finding::nearest;
+pub use layout::lay_out;
 pub use node::{Json, Member, Node};
 pub use parse::{Parsed, parse};
 pub use problem::{Mistake, Problem};

@@ -166,6 +166,7 @@ impl JsonParser<'_> {
         let mut members: Vec<Member> = Vec::new();
         let mut seen: HashMap<String, Range<usize>> = HashMap::new();
         let mut first = true;
+        let mut end = self.at;
         loop {
             self.gap();
             match self.peek() {
@@ -195,6 +196,11 @@ impl JsonParser<'_> {
                     self.bump();
                     continue;
                 }
+                // At the next item of a list, the object was intended to end before it.
+                Some('{') if !first && self.is_item_of_list() => {
+                    self.end_before_item(end);
+                    break;
+                }
                 Some(_) => {}
             }
             first = false;
@@ -204,10 +210,25 @@ impl JsonParser<'_> {
                 }
                 members.push(member);
             }
+            end = self.at;
             self.separator(true);
         }
         self.open.pop();
         Ok(self.node(Json::Object(members), start))
+    }
+
+    /// Whether the object that is read is an item of a list.
+    fn is_item_of_list(&self) -> bool {
+        matches!(self.open.as_slice(), [.., ('[', _), _])
+    }
+
+    /// Ends an object at `end`, before the comma that precedes the next item of its list.
+    fn end_before_item(&mut self, end: usize) {
+        let next = self.at;
+        self.at = end;
+        self.adjust_bracket_count('}', 1);
+        let mistake = Mistake::BracketMissing { mine: '}', found: '{' };
+        self.report(Problem::replaced(mistake, end..end, "}").related(next..next + 1));
     }
 
     fn twice(&mut self, key: &Text, earlier: Range<usize>) {

@@ -50,8 +50,8 @@ pub enum Mistake {
     },
     /// `;` for `,`.
     Semicolon,
-    /// `0,5`.
-    DecimalComma,
+    /// `0,5`; the number with a point.
+    DecimalComma(String),
     /// No colon after a key.
     ColonMissing,
     /// `=` for `:`.
@@ -87,7 +87,7 @@ pub enum Mistake {
         /// The bracket in the text.
         found: char,
     },
-    /// A bracket is missing before one that closes the enclosing value.
+    /// A bracket is missing before one that closes the enclosing value, or before the next item of a list.
     BracketMissing {
         /// The missing bracket.
         mine: char,

@@ -20,7 +20,8 @@ impl JsonParser<'_> {
                         while self.peek().is_some_and(|c| c.is_ascii_digit()) {
                             self.bump();
                         }
-                        self.report(Problem::replaced(Mistake::DecimalComma, start..start + 1, "."));
+                        let mistake = Mistake::DecimalComma(self.with_point(start));
+                        self.report(Problem::replaced(mistake, start..start + 1, "."));
                         end = self.before();
                         self.gap();
                         continue;
@@ -144,6 +145,15 @@ impl JsonParser<'_> {
                 false
             }
         }
+    }
+
+    /// The number with a comma at `comma` that ends here, with a point.
+    fn with_point(&self, comma: usize) -> String {
+        let before = self.text.get(..comma).unwrap_or("");
+        let start = before.trim_end_matches(|c: char| c.is_ascii_digit() || c == '-').len();
+        let [whole, decimals] =
+            [start..comma, comma + 1..self.at].map(|part| self.text.get(part).unwrap_or(""));
+        format!("{whole}.{decimals}")
     }
 
     /// Whether a quote in place of a key is the last character of its line, and a key begins on the next line.

@@ -2,7 +2,9 @@
 
 use crate::finding::Finding;
 use crate::markdown::{MAX_BLOCKS, MAX_MARKUP, Problem};
-use crate::rules::{self, fence_line, fence_missing, fence_name, fence_unclosed, fence_unseen};
+use crate::rules::{
+    self, fence_line, fence_listing, fence_missing, fence_name, fence_unclosed, fence_unseen,
+};
 
 /// The finding about a damaged fence.
 pub(super) fn to_finding(text: &str, problem: &Problem) -> Finding {
@@ -17,6 +19,7 @@ pub(super) fn to_finding(text: &str, problem: &Problem) -> Finding {
                 .why(format!("the lesson has more than {MAX_BLOCKS} fences, or too many damaged ones"))
                 .help("split the lesson, or fix the first fences and check again")
         }
+        Problem::Listed { open, right } => fence_listing::listed(open, right),
         Problem::Misspelt { open, right } => fence_name::misspelt(open, right),
         Problem::TextOnLine { open, rest, kind } => fence_line::text_on_line(text, open, rest.clone(), kind),
         Problem::Unclosed { open, end, resume, kind } => {

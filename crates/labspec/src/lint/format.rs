@@ -25,14 +25,16 @@ fn finding_at(span: Range<usize>, mistake: &Mistake) -> Finding {
         Mistake::UnknownKey { object, key, meant } => {
             rules::unknown_key::describe_key(span, object, key, meant)
         }
-        Mistake::MissingKey { object, key, why, advised } => {
-            rules::missing_key::describe_missing(span, object, key, why, *advised)
+        Mistake::MissingKey { object, key, why, advised, example } => {
+            rules::missing_key::describe_missing(span, object, key, why, *advised, example)
         }
-        Mistake::NoChoice => rules::select_options::not_a_pair(span),
+        Mistake::NoChoice { text, index } => rules::select_options::not_a_pair(span, text.as_deref(), *index),
         Mistake::NothingOffered => rules::select_options::no_options(open()),
         Mistake::NoTraces => rules::empty_plot::without_traces(open()),
         Mistake::NoPlace(text) => rules::unknown_lab::not_an_address(span, text),
         Mistake::ClaimsNothing => rules::verify_nothing::claims_nothing(open()),
+        Mistake::NoDefinitionName(name) => rules::wrong_type::no_definition_name(open(), name),
+        Mistake::ClaimsInDefinition => rules::verify_nothing::claims_in_definition(open()),
         Mistake::HoldsQuiz(right) => {
             let message = "this fence says `lab`, but it holds a quiz";
             rules::fence_kind::holds(span, message, "quiz", right)
@@ -43,6 +45,7 @@ fn finding_at(span: Range<usize>, mistake: &Mistake) -> Finding {
         }
         Mistake::EmptyFence => rules::json_syntax::empty_fence(span),
         Mistake::UnknownObject => rules::unknown_spec::unrecognized(open()),
+        Mistake::NoSource(name, why) => rules::unknown_source::unreadable(span, name, why),
         Mistake::TooLarge => {
             let limit = MAX_FILE >> 20;
             Finding::new(rules::LESSON_LIMIT, span, format!("this file is larger than {limit} MB"))
@@ -58,11 +61,16 @@ fn finding_at(span: Range<usize>, mistake: &Mistake) -> Finding {
         | Mistake::NoLab(_)
         | Mistake::NoSweep
         | Mistake::NoRows
+        | Mistake::NoColumn
         | Mistake::FindsNothing
         | Mistake::FindsBackwards
         | Mistake::SweptValues(_)
+        | Mistake::RunNames { .. }
+        | Mistake::RunTwice(_)
         | Mistake::NoPress
         | Mistake::NoRange
-        | Mistake::NoQuote => rules::wrong_type::describe_type(&span, mistake),
+        | Mistake::NoQuote
+        | Mistake::QuoteWithoutList(_)
+        | Mistake::AnswerText(_) => rules::wrong_type::describe_type(&span, mistake),
     }
 }

@@ -4,7 +4,7 @@ use super::ModelFolder;
 use crate::finding::{self, Finding, InFile};
 use crate::rules;
 use crate::source::{BadText, PathQuery, SourceFile, Sources};
-use crate::spec::{LabAddress, Lesson, Other, Verify, VerifyLab, read_lesson, read_other};
+use crate::spec::{LabAddress, Lesson, Other, Verify, VerifyLab, read_lesson_in, read_other};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -24,16 +24,16 @@ pub fn load_lesson(file: SourceFile, models: &ModelFolder) -> Lesson {
 /// The only loader: loads the lesson at this path with its related files from `sources`: the labs of other lessons that it
 /// names, the files to which it links, its snapshot. Programs, editors and checks from memory differ only in their sources.
 pub fn load_lesson_at(file: SourceFile, path: &Path, sources: &Sources, models: &ModelFolder) -> Lesson {
-    let mut lesson = read_lesson(file);
+    let mut lesson = read_lesson_in(file, Some((path, sources)));
     let mut findings = super::check_rules(&lesson, models);
     rules::dead_link::check_files(&lesson, path, sources, &mut findings);
     withhold_fixes(&lesson, &mut findings);
+    remove_effects_of_fences(&lesson, &mut findings);
     lesson.findings = findings.into_iter().map(|f| f.at(&lesson.file)).collect();
     finding::sort(&mut lesson.findings);
     limit(&mut lesson);
     lesson.snapshot = read_snapshot(path, sources);
     lesson.others = read_others(&lesson, path, sources);
-    lesson.place = Some((path.to_path_buf(), sources.clone()));
     lesson
 }
 
@@ -70,6 +70,24 @@ pub fn withhold_fixes(lesson: &Lesson, findings: &mut [Finding]) {
             finding.fix = None;
         }
     }
+}
+
+/// Removes the findings about labs that are missing because their fences are damaged. A number beyond all labs and damaged fences is
+/// a mistake of its own.
+fn remove_effects_of_fences(lesson: &Lesson, findings: &mut Vec<Finding>) {
+    let is_of_fence = |f: &Finding| {
+        [rules::FENCE_LISTING.code, rules::FENCE_NAME.code, rules::FENCE_MISSING.code].contains(&f.code)
+    };
+    let damaged = findings.iter().filter(|f| is_of_fence(f)).count();
+    if damaged == 0 {
+        return;
+    }
+    let is_damaged = |f: &Finding| {
+        let number =
+            lesson.file.slice(f.span.clone()).strip_prefix('#').and_then(|n| n.parse::<usize>().ok());
+        number.is_none_or(|n| n <= lesson.labs.len() + damaged)
+    };
+    findings.retain(|f| f.code != rules::UNKNOWN_LAB.code || !is_damaged(f));
 }
 
 /// Reads a lesson or a JSON file in any encoding. A file that is not UTF-8 has a finding with the position, and is checked

@@ -65,6 +65,17 @@ pub(super) fn meant(open: &Opener, kind: &BlockKind, body: &str) -> Option<(&'st
     }
 }
 
+/// The kind of a lab or a quiz whose JSON is the whole content of a fence of another language.
+pub(super) fn listed(kind: &BlockKind, body: &str) -> Option<&'static str> {
+    let BlockKind::Code { .. } = kind else { return None };
+    let body = body.trim();
+    if !(body.starts_with('{') && body.ends_with('}')) {
+        return None;
+    }
+    let found = bare_json(body).next().filter(|found| found.line == 0)?;
+    Some(if found.is_quiz { "quiz" } else { LabKind::Simulation.fence() })
+}
+
 /// Whether the last line of a block closes it.
 pub(super) fn is_closed(text: &str, span: &Range<usize>, open: &Opener) -> bool {
     let Some(below) = text.get(open.line.end..span.end) else { return false };

@@ -17,7 +17,7 @@ pub(super) struct BareObject {
     pub(super) line: usize,
     /// The object.
     pub(super) object: Range<usize>,
-    is_quiz: bool,
+    pub(super) is_quiz: bool,
 }
 
 /// All such objects of a text.

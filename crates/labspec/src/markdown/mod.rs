@@ -111,6 +111,13 @@ pub enum Problem {
     TooMuchMarkup,
     /// The number of fences, or of damaged ones, exceeds the limit; nothing was read from this byte on.
     TooManyBlocks(usize),
+    /// A fence of another language that contains the JSON of a lab or a quiz.
+    Listed {
+        /// Its opening line.
+        open: Opener,
+        /// The kind of its content.
+        right: &'static str,
+    },
     /// A fence that was intended to be of another kind.
     Misspelt {
         /// Its opening line.
@@ -283,6 +290,8 @@ fn block(text: &str, span: Range<usize>, body: Text, scan: &mut Scan) -> Option<
     if let Some((right, meant)) = fence::meant(&open, &kind, &body.value) {
         scan.problems.push(Problem::Misspelt { open: open.clone(), right: right.to_string() });
         kind = meant;
+    } else if let Some(right) = fence::listed(&kind, &body.value) {
+        scan.problems.push(Problem::Listed { open: open.clone(), right });
     }
     let cut = match &kind {
         BlockKind::Code { .. } => fence::cut_listing(&body.value, &open, closed),

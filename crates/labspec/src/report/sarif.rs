@@ -13,11 +13,11 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// The address of the pages of the rules.
-const PAGES: &str = "https://github.com/labspec/labspec/blob/main/docs/reference/codes.md";
+const PAGES: &str = "https://github.com/labspec/labspec/blob/main/docs/reference/rules";
 
 /// The page of a rule.
 pub fn page(code: &str) -> String {
-    format!("{PAGES}#{code}")
+    format!("{PAGES}/{code}.md")
 }
 
 #[derive(Serialize)]

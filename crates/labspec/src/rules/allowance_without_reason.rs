@@ -5,6 +5,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const ALLOWANCE_WITHOUT_REASON: &Rule = &Rule {
     code: "allowance-without-reason",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "a suppression gives no reason",
     why: "a later reader cannot tell whether the reason still holds; without a reason nothing is suppressed",

@@ -7,6 +7,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const ALWAYS_SATURATED: &Rule = &Rule {
     code: "always-saturated",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "an input is outside its `ctrlrange` all the time, in every run",
     why: "the engine clamps the input: the actuator stays at its limit, whatever the controller computes",

@@ -7,6 +7,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const ANSWER_AGAINST_EXPLANATION: &Rule = &Rule {
     code: "answer-against-explanation",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "the explanation of a numeric question gives a different number than its answer",
     why: "a student who follows the explanation gets a number that is graded as wrong",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const ANSWER_AMBIGUOUS: &Rule = &Rule {
     code: "answer-ambiguous",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Claim,
     summary: "more than one option is true",
     why: "a student who picks the other true option is graded as wrong",

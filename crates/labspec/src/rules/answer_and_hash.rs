@@ -6,6 +6,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const ANSWER_AND_HASH: &Rule = &Rule {
     code: "answer-and-hash",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "a question has both `answer` and `hash`",
     why: "the page grades by the hash, and `answer` shows what the hash is meant to hide",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const ANSWER_FRAGILE: &Rule = &Rule {
     code: "answer-fragile",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Claim,
     summary: "the answer depends on the timestep or on the solver settings",
     why: "the question does not mention these settings, and other settings give another answer",

@@ -7,6 +7,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const ANSWER_RANGE: &Rule = &Rule {
     code: "answer-range",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "`answer` is not the index of an option",
     why: "no option is graded as correct, so every student is graded as wrong",

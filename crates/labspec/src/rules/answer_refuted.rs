@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const ANSWER_REFUTED: &Rule = &Rule {
     code: "answer-refuted",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Claim,
     summary: "the simulation refutes the keyed answer",
     why: "a student who predicts the simulation correctly is graded as wrong",

@@ -6,6 +6,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const ANSWER_TWICE: &Rule = &Rule {
     code: "answer-twice",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "`answer` lists an option twice",
     why: "one of the two was probably meant to be another option, which is graded as wrong",

@@ -7,6 +7,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const APPLY_UNUSED: &Rule = &Rule {
     code: "apply-unused",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "a control has both `set` and `apply`",
     why: "the page runs `set` and ignores `apply`, so those statements do nothing",

@@ -7,6 +7,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const ATTEMPTS_RANGE: &Rule = &Rule {
     code: "attempts-range",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "`attempts` is less than 1",
     why: "a student who cannot try cannot answer",

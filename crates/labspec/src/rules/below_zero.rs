@@ -7,6 +7,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const BELOW_ZERO: &Rule = &Rule {
     code: "below-zero",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "a quantity that is never negative is displayed below zero",
     why: "an elapsed time, a number of contacts, a kinetic energy, a mass, a normal force and a magnitude are never negative: the sign or a subtracted term is wrong",

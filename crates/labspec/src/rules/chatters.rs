@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const CHATTERS: &Rule = &Rule {
     code: "chatters",
     severity: Severity::Note,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "a contact switches on and off while nothing moves",
     why: "forces that jump from step to step come from the timestep, so a plot of them shows only noise",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const CLAIM_OF_MISMATCH: &Rule = &Rule {
     code: "claim-of-mismatch",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Claim,
     summary: "a claim holds only because a program changes a parameter and not the parameter that belongs to it",
     why: "a heavier ball with the inertia of a light one rolls faster than any real ball: the claim is checked again with the other parameter corrected, and then it is false",

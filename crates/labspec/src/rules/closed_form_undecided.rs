@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const CLOSED_FORM_UNDECIDED: &Rule = &Rule {
     code: "closed-form-undecided",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Claim,
     summary: "the runs do not decide whether a trace follows its closed form",
     why: "the difference neither vanishes nor settles as the timestep shrinks; a stated tolerance decides it",

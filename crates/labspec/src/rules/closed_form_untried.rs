@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const CLOSED_FORM_UNTRIED: &Rule = &Rule {
     code: "closed-form-untried",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Claim,
     summary: "a closed form cannot be tested",
     why: "nothing shows whether the trace follows the formula",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const CLOSED_FORM_WRONG: &Rule = &Rule {
     code: "closed-form-wrong",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Claim,
     summary: "a trace does not follow its closed form",
     why: "the formula in the lesson does not describe the lab",

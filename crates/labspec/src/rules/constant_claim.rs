@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const CONSTANT_CLAIM: &Rule = &Rule {
     code: "constant-claim",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Claim,
     summary: "a condition, a value or the expression of a quoted number is a constant",
     why: "it gives the same result whatever the simulation does, so it checks nothing",

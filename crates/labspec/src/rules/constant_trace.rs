@@ -11,6 +11,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const CONSTANT_TRACE: &Rule = &Rule {
     code: "constant-trace",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "a trace shows the same number in every run",
     why: "a curve that cannot change is often a wrong name or index: `model.qpos0` for `data.qpos`, or the world body for the moving one. The rule tries every control and another state of the scene before it reports. `refLines` draws an intended constant line",

@@ -15,6 +15,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const CONTACT_TIME_LATE: &Rule = &Rule {
     code: "contact-time-late",
     severity: Severity::Note,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "a controller records the time of a contact one step late",
     why: "a step finds contacts at its start, from the positions before it; when the controller sees them, `data.time` is already one timestep later",

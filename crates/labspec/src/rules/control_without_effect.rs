@@ -7,6 +7,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const CONTROL_WITHOUT_EFFECT: &Rule = &Rule {
     code: "control-without-effect",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "a slider or select has no `set`, `apply` or `param`",
     why: "the control moves, but nothing in the lab changes",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const CONTYPE_ALONE: &Rule = &Rule {
     code: "contype-alone",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "a program switches the contacts of a geom on but not the contact bits of its body",
     why: "MuJoCo tests the contact bits of bodies before those of geoms, and computes them when the model is compiled: a geom that is switched on alone still passes through everything. The finding states what differs in a run with both",

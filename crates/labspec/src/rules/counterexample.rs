@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const COUNTEREXAMPLE: &Rule = &Rule {
     code: "counterexample",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Claim,
     summary: "an answer is false in part of the range that it is claimed for",
     why: "a student can set the lab to such a value, and sees something different from the keyed answer",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const CREEPS: &Rule = &Rule {
     code: "creeps",
     severity: Severity::Note,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "a body that seems to rest creeps, because friction is soft",
     why: "a student who waits sees the body slide, even if the text says that friction holds it",

@@ -3,7 +3,8 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 /// Decided by `observe` in `monitors/growth.rs`.
 pub const DAMPER_PUSHES: &Rule = &Rule {
     code: "damper-pushes",
-    severity: Severity::Error,
+    severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "a negative damping feeds energy into the scene without end",
     why: "the faster a part moves, the harder the damper pushes it: a student sees a swing that grows forever without a motor",

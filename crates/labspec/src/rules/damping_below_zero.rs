@@ -11,6 +11,7 @@ use std::ops::ControlFlow;
 pub const DAMPING_BELOW_ZERO: &Rule = &Rule {
     code: "damping-below-zero",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "a damping is negative",
     why: "a damper takes energy from a moving part; a negative damping adds energy. Friction, a limit or a motor may hide it for a while. The rule skips a damping that a control sets, or that the lab calls negative",

@@ -13,6 +13,7 @@ use std::path::Path;
 pub const DEAD_LINK: &Rule = &Rule {
     code: "dead-link",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "a link or an image leads to a file or a heading that does not exist",
     why: "a student lands on a missing page, or sees a broken image",
@@ -62,6 +63,10 @@ pub(crate) fn check_anchors(lesson: &Lesson, findings: &mut Vec<Finding>) {
     let mut ids_here = None;
     for link in lesson.scan.links.iter().take(MOST) {
         let Some(anchor) = link.target.strip_prefix('#').filter(|a| !a.is_empty()) else { continue };
+        if anchor.starts_with('/') {
+            findings.push(unknown_route(link));
+            continue;
+        }
         let ids = ids_here.get_or_insert_with(|| ids(text, &lesson.scan));
         if !has_anchor(text, &lesson.scan, ids, &decoded(anchor)) && !is_generated_anchor(lesson, anchor) {
             findings.push(finding(link, "this lesson has no such heading"));
@@ -99,6 +104,19 @@ pub(crate) fn check_files(lesson: &Lesson, path: &Path, sources: &Sources, findi
             _ => {}
         }
     }
+}
+
+/// A link to a page of a single-page site, such as `#/lesson/0.1`. The settings of the course state which files these pages are.
+fn unknown_route(link: &Link) -> Finding {
+    let mut finding = Finding::new(
+        DEAD_LINK,
+        link.span.clone(),
+        format!("`{}` is a page of the site, and no setting states which file it is", shorten(&link.target)),
+    )
+    .why("a link to a page that does not exist is not found")
+    .help("write its form in labspec.toml, for example routes = { \"#/lesson/{}\" = \"lessons/{}.md\" }");
+    finding.link = Some(link.target.as_str().into());
+    finding
 }
 
 fn finding(link: &Link, message: &str) -> Finding {

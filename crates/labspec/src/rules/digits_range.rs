@@ -7,6 +7,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const DIGITS_RANGE: &Rule = &Rule {
     code: "digits-range",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "`digits` is not between 0 and 17",
     why: "a number has at most 17 significant digits; a negative count makes the page throw",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const DOES_NOT_BREAK: &Rule = &Rule {
     code: "does-not-break",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "a lab or a run is expected to break but does not",
     why: "the author writes `\"expect\": \"breaks\"`, but no run breaks: a student does not see what the text describes",

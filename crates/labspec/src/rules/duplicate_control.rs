@@ -7,6 +7,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const DUPLICATE_CONTROL: &Rule = &Rule {
     code: "duplicate-control",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "two controls of a lab have the same label",
     why: "neither a student nor a run that sets controls by label can tell them apart",

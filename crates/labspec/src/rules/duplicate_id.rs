@@ -10,6 +10,7 @@ use std::collections::HashMap;
 pub const DUPLICATE_ID: &Rule = &Rule {
     code: "duplicate-id",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "two quizzes have the same id",
     why: "the page stores answers under the id, so the answer to one quiz appears as the answer to the other",
@@ -64,7 +65,10 @@ pub(super) fn across(lessons: &[&Lesson]) -> Vec<Finding> {
 
 fn duplicate(id: &Text) -> Finding {
     Finding::new(DUPLICATE_ID, id.span(), format!("another quiz also has the id {}", named(id.as_str())))
-        .help("give every quiz its own id, such as the lesson number and a word")
+        .help(format!(
+            "give every quiz its own id: write `{}-2`, or the lesson number and a word",
+            id.as_str()
+        ))
 }
 
 #[cfg(test)]

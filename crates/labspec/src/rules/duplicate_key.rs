@@ -6,6 +6,7 @@ use std::ops::Range;
 pub const DUPLICATE_KEY: &Rule = &Rule {
     code: "duplicate-key",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Json,
     summary: "a key is written twice in one object",
     why: "only the last value counts; the page silently ignores the others",

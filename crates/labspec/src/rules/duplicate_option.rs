@@ -7,6 +7,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const DUPLICATE_OPTION: &Rule = &Rule {
     code: "duplicate-option",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "two options of a question have the same text",
     why: "one of them is graded as wrong although it says the same as the right one, or it is a leftover copy",

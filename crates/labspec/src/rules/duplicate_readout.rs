@@ -7,6 +7,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const DUPLICATE_READOUT: &Rule = &Rule {
     code: "duplicate-readout",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "two readouts of a lab have the same label",
     why: "a student cannot tell them apart",

@@ -7,6 +7,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const DUPLICATE_TRACE: &Rule = &Rule {
     code: "duplicate-trace",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "two traces of a plot have the same label",
     why: "a student cannot tell them apart in the legend",

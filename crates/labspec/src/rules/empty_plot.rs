@@ -5,6 +5,7 @@ use std::ops::Range;
 pub const EMPTY_PLOT: &Rule = &Rule {
     code: "empty-plot",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "a plot has no traces",
     why: "the page shows an empty frame",

@@ -6,6 +6,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const EMPTY_QUIZ: &Rule = &Rule {
     code: "empty-quiz",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "a quiz has no questions",
     why: "the page shows a title and no question",

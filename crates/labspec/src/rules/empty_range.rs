@@ -7,6 +7,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const EMPTY_RANGE: &Rule = &Rule {
     code: "empty-range",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "the lower end of a range is not below its upper end",
     why: "the slider cannot move, or the plot has no height",
@@ -25,9 +26,9 @@ fn check_lab(lab: &Lab, findings: &mut Vec<Finding>) {
         if let ControlKind::Slider { min, max, .. } = &control.kind {
             findings.extend(ends(min, max, ["min", "max"]).map(|found| {
                 found.why("the slider cannot move").help(if min.value > max.value {
-                    "swap the two ends"
+                    format!("swap the two ends: `\"min\": {}, \"max\": {}`", max.value, min.value)
                 } else {
-                    "make `max` larger than `min`"
+                    "make `max` larger than `min`".to_string()
                 })
             }));
         }

@@ -3,7 +3,8 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 /// Decided by `observe` in `monitors/growth.rs`.
 pub const ENERGY_GROWS: &Rule = &Rule {
     code: "energy-grows",
-    severity: Severity::Error,
+    severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "the simulation gains energy without a source",
     why: "the steps create the energy, not the physics: a student sees things leap or swing ever wider, and MuJoCo gives no warning",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const ENGINE_DEPENDENT: &Rule = &Rule {
     code: "engine-dependent",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Claim,
     summary: "a claim has a different verdict with the recorded numbers of MuJoCo (--judge)",
     why: "an answer that depends on the engine or its version is wrong for every reader who uses another one",

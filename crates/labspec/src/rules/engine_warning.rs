@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const ENGINE_WARNING: &Rule = &Rule {
     code: "engine-warning",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "the engine warns while a lab runs",
     why: "a moving body has no inertia, or there are more contacts than the engine keeps: what follows is not physics, and the page shows no warning",

@@ -5,6 +5,7 @@ use std::ops::Range;
 pub const ERROR_ALLOWED: &Rule = &Rule {
     code: "error-allowed",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "an error cannot be suppressed",
     why: "a broken or false lesson stays broken, whoever has reviewed it; only warnings and notes can be suppressed",

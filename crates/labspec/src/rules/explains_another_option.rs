@@ -7,6 +7,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const EXPLAINS_ANOTHER_OPTION: &Rule = &Rule {
     code: "explains-another-option",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "the explanation calls a different option correct than the answer key",
     why: "a student reads that an option is correct that is graded as wrong",

@@ -5,6 +5,7 @@ use std::ops::Range;
 pub const FENCE_KIND: &Rule = &Rule {
     code: "fence-kind",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Source,
     summary: "a `lab` fence holds a quiz, or a `quiz` fence holds a lab",
     why: "the page reads the content as the kind that the fence names, and shows an empty block",

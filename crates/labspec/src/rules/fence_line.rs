@@ -7,6 +7,7 @@ use std::ops::Range;
 pub const FENCE_LINE: &Rule = &Rule {
     code: "fence-line",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Source,
     summary: "the opening line of a fence contains JSON or code",
     why: "the page reads that line as the kind of the fence, so the content on it is lost",

@@ -7,6 +7,7 @@ use std::ops::Range;
 pub const FENCE_MISSING: &Rule = &Rule {
     code: "fence-missing",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Source,
     summary: "a lab or a quiz is not inside a fence",
     why: "students see the JSON instead of the lab or the quiz",

@@ -5,6 +5,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const FENCE_NAME: &Rule = &Rule {
     code: "fence-name",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Source,
     summary: "the kind of a fence is misspelt",
     why: "the page shows the JSON as a listing, or finds no such widget",

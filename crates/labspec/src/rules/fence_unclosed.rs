@@ -5,6 +5,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const FENCE_UNCLOSED: &Rule = &Rule {
     code: "fence-unclosed",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Source,
     summary: "a fence has no closing line",
     why: "the page reads everything below it as part of the fence: text, labs and quizzes disappear",

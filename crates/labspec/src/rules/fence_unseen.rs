@@ -5,6 +5,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const FENCE_UNSEEN: &Rule = &Rule {
     code: "fence-unseen",
     severity: Severity::Error,
+    exceptions: &[(Severity::Warning, "if the block is indented like code")],
     layer: Layer::Source,
     summary: "Markdown does not read an opening line as a fence",
     why: "a fence line must not contain another backtick and must not be inside HTML; the page shows the block as text",

@@ -10,6 +10,7 @@ use std::ops::Range;
 pub const FORMULA_UNBALANCED: &Rule = &Rule {
     code: "formula-unbalanced",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "a formula or a group in it is not closed",
     why: "the page shows the source of the formula, or an error in red",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const GAIN_ALONE: &Rule = &Rule {
     code: "gain-alone",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "a program changes the gain of a servo but not its bias, or the bias but not the gain",
     why: "a servo reaches its target only if its bias is minus its gain: one acts on the position, the other on the target. The finding states what differs in a run with both",

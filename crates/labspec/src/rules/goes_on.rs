@@ -12,6 +12,7 @@ use std::ops::ControlFlow;
 pub const GOES_ON: &Rule = &Rule {
     code: "goes-on",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "the note says that a control restarts the lab, but it does not",
     why: "the run continues from its current state with the new value: a student who wants to compare two runs sees only the end of one",

@@ -6,6 +6,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const HASH_FORM: &Rule = &Rule {
     code: "hash-form",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "a hash is not 64 hexadecimal digits, or its salt is too long",
     why: "no answer has this hash, so every student is graded as wrong",

@@ -6,6 +6,7 @@ use std::ops::Range;
 pub const HTML_ELEMENT: &Rule = &Rule {
     code: "html-element",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "a text of a lab or a quiz has a tag that HTML does not have",
     why: "a browser reads it as an unknown element, and does not show the text between `<` and `>`",

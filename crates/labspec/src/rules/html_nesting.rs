@@ -11,6 +11,7 @@ use std::ops::Range;
 pub const HTML_NESTING: &Rule = &Rule {
     code: "html-nesting",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "HTML elements in a lab or a quiz are not closed in the order in which they are opened",
     why: "a browser guesses where they end, and the rest of the page may look like code or a heading",

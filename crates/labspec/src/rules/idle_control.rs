@@ -19,6 +19,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const IDLE_CONTROL: &Rule = &Rule {
     code: "idle-control",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "a control changes nothing that a student can see",
     why: "a student moves it, and every curve, number and position stays exactly the same: often the index is wrong, nothing reads the field, or something overwrites the value. The rule tries several values, early and late, with every other control moved too",

@@ -13,6 +13,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const IDLE_RANGE: &Rule = &Rule {
     code: "idle-range",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "a part of the range of a slider changes nothing that a student can see",
     why: "a student moves it, and every curve, number and position stays exactly the same: `ctrlrange`, a limit or a statement of the lab clamps the value",

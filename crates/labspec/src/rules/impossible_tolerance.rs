@@ -6,6 +6,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const IMPOSSIBLE_TOLERANCE: &Rule = &Rule {
     code: "impossible-tolerance",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "the tolerance of a numeric question is negative, too small to type, or 0 for an answer that is not an integer",
     why: "an answer is right if it differs by at most `tol`; a count may be asked exactly, a measured number may not",

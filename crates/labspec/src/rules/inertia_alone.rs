@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const INERTIA_ALONE: &Rule = &Rule {
     code: "inertia-alone",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "a program gives a body an inertia that no body of its mass and size has",
     why: "a moment of inertia is at most the mass times the squared distance of the farthest part, and at most the sum of the other two moments. The finding states what differs in a run with the matching mass or moments",

@@ -9,6 +9,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const INTEGRATOR_CONTROL: &Rule = &Rule {
     code: "integrator-control",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "a control of an integrators lab sets the integrator, or is called \"integrator\"",
     why: "the lab compares integrators, so each of its runs has its own; after a reset, the control has no effect",

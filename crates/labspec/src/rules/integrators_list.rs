@@ -8,6 +8,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const INTEGRATORS_LIST: &Rule = &Rule {
     code: "integrators-list",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "`integrators` is empty, names an unknown integrator, or names one twice",
     why: "the page has no curve for this integrator",

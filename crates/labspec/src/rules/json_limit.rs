@@ -6,6 +6,7 @@ use std::ops::Range;
 pub const JSON_LIMIT: &Rule = &Rule {
     code: "json-limit",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Json,
     summary: "the JSON is nested too deeply or holds too many values",
     why: "limits keep the checker and the page responsive for any input",

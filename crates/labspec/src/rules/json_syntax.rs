@@ -2,7 +2,7 @@
 //! it.
 
 use crate::json::read::shorten;
-use crate::json::{Mistake, Problem};
+use crate::json::{Mistake, Problem, literal};
 use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 use std::ops::Range;
 
@@ -10,6 +10,7 @@ use std::ops::Range;
 pub const JSON_SYNTAX: &Rule = &Rule {
     code: "json-syntax",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Json,
     summary: "the JSON of a block is invalid",
     why: "the page parses the block as a whole, so one wrong character removes the whole lab or quiz",
@@ -89,8 +90,8 @@ fn describe_separator(mistake: &Mistake) -> Option<MessageParts> {
             "delete this comma, or write the missing value",
         ),
         Mistake::Semicolon => message_with_help("a semicolon is used where JSON needs a comma", "write `,`"),
-        Mistake::DecimalComma => {
-            message_with_help("a number has a decimal comma", "write decimals with a point: 0.5")
+        Mistake::DecimalComma(right) => {
+            message_with_help("a number has a decimal comma", format!("write decimals with a point: {right}"))
         }
         Mistake::ColonMissing => {
             message_with_help("a colon is missing after this key", "write \"key\": value")
@@ -146,8 +147,12 @@ fn describe_bracket(mistake: &Mistake) -> Option<MessageParts> {
             message_with_help(format!("`{found}` is used where {what} ends"), format!("write `{mine}`"))
         }
         Mistake::BracketMissing { mine, found } => {
-            message_with_help(format!("a `{mine}` is missing here"), format!("write `{mine}`"))
-                .related(format!("this `{found}` closes the outer bracket"))
+            message_with_help(format!("a `{mine}` is missing here"), format!("write `{mine}`")).related(
+                match found {
+                    '{' => "the next item of the list begins here".to_string(),
+                    found => format!("this `{found}` closes the outer bracket"),
+                },
+            )
         }
         Mistake::ListGoesOn => message_with_help("a `]` is missing here", "write `]`")
             .related("a key begins here, which a list cannot contain"),
@@ -187,6 +192,10 @@ fn describe_literal(mistake: &Mistake) -> Option<MessageParts> {
             },
             match right {
                 Some(right) => format!("write {right}"),
+                None if literal::number_before_unit(token).is_some() => format!(
+                    "write {}, and put the unit into its own key or leave it out",
+                    literal::number_before_unit(token).unwrap_or("")
+                ),
                 None => "write digits before and after the point, nothing else: 0.5, -2, 1e-3; put a unit into its own key, a text into quotes".to_string(),
             },
         ),

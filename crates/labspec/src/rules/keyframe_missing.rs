@@ -7,6 +7,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const KEYFRAME_MISSING: &Rule = &Rule {
     code: "keyframe-missing",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "`key` names a keyframe that the model does not have",
     why: "the page silently starts from the default configuration",

@@ -7,6 +7,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const KEYFRAME_RANGE: &Rule = &Rule {
     code: "keyframe-range",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "`key` is negative",
     why: "keyframes are counted from 0; the page silently ignores a negative one",

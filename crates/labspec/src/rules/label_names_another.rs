@@ -11,6 +11,7 @@ use std::collections::BTreeSet;
 pub const LABEL_NAMES_ANOTHER: &Rule = &Rule {
     code: "label-names-another",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "a label names one object of the model, but its expression reads another",
     why: "exchanged labels or a copied index show a student the value of the wrong body. The rule reports a label that is just the name and a unit, or that differs from another label only in the name",

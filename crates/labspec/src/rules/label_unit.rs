@@ -16,6 +16,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const LABEL_UNIT: &Rule = &Rule {
     code: "label-unit",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "the unit in a label does not match its expression",
     why: "a student takes the number for what the label says: a speed in m/s under `mm/s` looks a thousand times too small. The dimension follows from the fields that the expression reads, through products, roots and `Math`; the rule compares only dimensions that are certain. A literal factor may carry any unit: `9.81 * data.time` may be a speed",
@@ -96,8 +97,12 @@ pub(crate) fn wrong_label(
     let found = Finding::new(LABEL_UNIT, label.span(), message)
         .why(why(found, &expected))
         .related(bound.text.span(), format!("this is in {gives}"));
-    Some(found.help(match factor_words(&expected) {
-        Some(words) => format!("convert the number ({words}), or write its unit into the label"),
+    Some(found.help(match convert(&expected, bound.text.as_str()) {
+        Some(converted) => {
+            format!(
+                "write `{converted}`, which converts the number, or write its unit, {gives}, into the label"
+            )
+        }
         None => "write the unit of the number into the label, or display what the label says".to_string(),
     }))
 }
@@ -120,15 +125,23 @@ fn why(found: &Dimension, expected: &Dimension) -> String {
     }
 }
 
-/// Describes the conversion from SI to a unit.
-fn factor_words(expected: &Dimension) -> Option<String> {
+/// Longer expressions are abbreviated in advice.
+const MAX_CONVERTED: usize = 80;
+
+/// The expression, converted from SI to a unit.
+fn convert(expected: &Dimension, expression: &str) -> Option<String> {
+    let (inside, product) = match expression.chars().count() <= MAX_CONVERTED {
+        true => (expression, expression.contains(|c: char| "+-?:=<>&|,%".contains(c))),
+        false => ("…", true),
+    };
     let factor = expected.factor.abs();
     if (factor - 1f64.to_degrees()).abs() < 1e-6 {
-        return Some("`lib.deg(…)` converts radians to degrees".to_string());
+        return Some(format!("lib.deg({inside})"));
     }
     let power = factor.log10();
     let plain = (power - power.round()).abs() < 1e-9 && power.round() > 0.0;
-    plain.then(|| format!("`{} * (…)`", factor.round()))
+    let factor = factor.round();
+    plain.then(|| if product { format!("{factor} * ({inside})") } else { format!("{factor} * {inside}") })
 }
 
 /// Reports a control whose unit differs from that of the value that it sets.

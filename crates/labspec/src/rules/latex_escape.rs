@@ -7,6 +7,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const LATEX_ESCAPE: &Rule = &Rule {
     code: "latex-escape",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "a LaTeX command in JSON is written with one backslash",
     why: "JSON reads `\\t`, `\\f`, `\\b`, `\\n` and `\\r` as control characters, so the formula loses its command",

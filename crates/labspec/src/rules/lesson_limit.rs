@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const LESSON_LIMIT: &Rule = &Rule {
     code: "lesson-limit",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Source,
     summary: "a lesson is too large, or has too many fences or too many mistakes to list",
     why: "limits keep the checker responsive for any input",

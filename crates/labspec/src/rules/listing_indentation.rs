@@ -7,6 +7,7 @@ use std::ops::Range;
 pub const LISTING_INDENTATION: &Rule = &Rule {
     code: "listing-indentation",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Source,
     summary: "a Python listing has lost its indentation",
     why: "the line below a line that ends with a colon needs indentation; the listing does not run",

@@ -6,6 +6,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const LISTING_LINE_BREAKS: &Rule = &Rule {
     code: "listing-line-breaks",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Source,
     summary: "a Python listing has lost its line breaks",
     why: "several statements are on one line, which Python does not accept",

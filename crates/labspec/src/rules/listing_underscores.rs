@@ -7,6 +7,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const LISTING_UNDERSCORES: &Rule = &Rule {
     code: "listing-underscores",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Source,
     summary: "a Python listing has lost the underscores of `__name__`",
     why: "Markdown reads double underscores outside a fence as emphasis; the listing does not run",

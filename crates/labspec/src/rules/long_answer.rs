@@ -7,6 +7,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const LONG_ANSWER: &Rule = &Rule {
     code: "long-answer",
     severity: Severity::Note,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "the correct option is by far the longest",
     why: "a student who picks the longest option without reading is graded as correct",

@@ -13,6 +13,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const LOST_AT_RESET: &Rule = &Rule {
     code: "lost-at-reset",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "a reset discards what a control sets in the data",
     why: "the control still displays its value, but the simulation no longer uses it; `\"init\": true` applies it again",

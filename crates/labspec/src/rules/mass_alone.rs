@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const MASS_ALONE: &Rule = &Rule {
     code: "mass-alone",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "a program changes the mass of a body that turns but not its inertia",
     why: "the body weighs more but turns as before, which no body of that shape does. The finding states what differs in a run with the inertia of this mass",

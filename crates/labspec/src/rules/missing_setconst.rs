@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const MISSING_SETCONST: &Rule = &Rule {
     code: "missing-setconst",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "a mass or an inertia changes without `mj_setConst`",
     why: "the constants that follow from it keep their old values, so contacts are as soft as for the old mass. The finding states what differs in a run with `mj_setConst`",

@@ -3,7 +3,9 @@ use crate::check::choices::choices;
 use crate::check::observations::{ObservedLab, geom_name};
 use crate::check::setconst::digits;
 use crate::run::{self, Play, Session, Start};
-use labspec_core::{Model, Plan};
+use crate::spec::Control;
+use crate::stress;
+use labspec_core::{Contact, Model, Plan};
 use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 use std::ops::ControlFlow;
 
@@ -11,6 +13,7 @@ use std::ops::ControlFlow;
 pub const MIXED_AWAY: &Rule = &Rule {
     code: "mixed-away",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "a control sets a contact parameter of one geom, but the contact has another value",
     why: "a contact takes the larger friction of its two geoms and a mean of their `solref`, so it does not do what the slider says",
@@ -22,30 +25,57 @@ pub const MIXED_AWAY: &Rule = &Rule {
     ),
 };
 
-/// The number of steps in which contacts are observed.
+/// The number of steps in which contacts are observed, and the maximum number where none was observed by then.
 const STEPS: usize = 300;
+const MAX_STEPS: usize = 5000;
 /// The number of steps between observations.
 const STEP_INTERVAL: usize = 5;
 
-/// A mixed parameter: its name, how the engine mixes it, and its value for a geom.
+/// A mixed parameter of contacts.
 struct Mixed {
     field: &'static str,
-    how: &'static str,
-    value_of_geom: fn(&Model, usize) -> Option<f64>,
+    /// How the engine mixes it.
+    how: fn(f64) -> &'static str,
+    /// Its components for a geom.
+    of_geom: fn(&Model, usize) -> Option<&[f64]>,
+    /// The component of a contact that corresponds to a component of a geom.
+    of_contact: fn(&Contact, usize) -> Option<f64>,
 }
 
-const MIXED: [Mixed; 2] = [
+const MEAN: &str = "the contact uses their mean, weighted by `solmix`";
+
+const MIXED: [Mixed; 3] = [
     Mixed {
         field: "geom_friction",
-        how: "the contact uses the larger of the two",
-        value_of_geom: |m, g| m.geom_friction.get(3 * g).copied(),
+        how: |_| "the contact uses the larger of the two",
+        of_geom: |m, g| m.geom_friction.get(3 * g..3 * g + 3),
+        // A contact has the friction of both tangents, of turning, and of rolling about both tangents.
+        of_contact: |c, k| c.friction.get([0, 2, 3].get(k).copied()?).copied(),
     },
     Mixed {
         field: "geom_solref",
-        how: "the contact uses their mean, weighted by `solmix`",
-        value_of_geom: |m, g| m.geom_solref.get(2 * g).copied(),
+        how: |value| if value > 0.0 { MEAN } else { "the contact uses the smaller of the two" },
+        of_geom: |m, g| m.geom_solref.get(2 * g..2 * g + 2),
+        of_contact: |c, k| c.solref.get(k).copied(),
+    },
+    Mixed {
+        field: "geom_solimp",
+        how: |_| MEAN,
+        of_geom: |m, g| m.geom_solimp.get(5 * g..5 * g + 5),
+        of_contact: |c, k| c.solimp.get(k).copied(),
     },
 ];
+
+/// A contact between a geom that a control has changed and one that it has not changed.
+struct MixedContact {
+    /// The changed geom and the other one.
+    geoms: [usize; 2],
+    /// The component of the parameter.
+    component: usize,
+    /// The value of the changed geom, and that of the contact.
+    written: f64,
+    used: f64,
+}
 
 pub(crate) fn check_contact_mixing(observed: &ObservedLab<'_>, findings: &mut Vec<Finding>) {
     let ready = observed.bench.ready;
@@ -65,7 +95,9 @@ pub(crate) fn check_contact_mixing(observed: &ObservedLab<'_>, findings: &mut Ve
                 let printed = value.to_string();
                 Some((printed, differs(observed, index, value, what)?))
             });
-            let Some((value, ([set, other], written, has))) = found else { continue };
+            let Some((value, MixedContact { geoms: [set, other], component, written, used })) = found else {
+                continue;
+            };
             findings.push(
                 Finding::warning(
                     MIXED_AWAY,
@@ -77,12 +109,40 @@ pub(crate) fn check_contact_mixing(observed: &ObservedLab<'_>, findings: &mut Ve
                     geom_name(&ready.model, set),
                     digits(written, 4),
                     geom_name(&ready.model, other),
-                    digits(has, 4),
-                    what.how
+                    digits(used, 4),
+                    (what.how)(written)
                 ))
-                .help("set it on both geoms, or give this geom a higher `priority`"),
+                .help(format!(
+                    "{}, or give {} a higher `priority`",
+                    set_on_both(bound.text.as_str(), control, &ready.model, (other, component), what),
+                    geom_name(&ready.model, set)
+                )),
             );
         }
+    }
+}
+
+/// The advice to set the parameter on the other geom too, with the code if that is known.
+fn set_on_both(
+    text: &str,
+    control: &Control,
+    model: &Model,
+    (other, component): (usize, usize),
+    what: &Mixed,
+) -> String {
+    let name = model.names.geom.get(other).filter(|name| !name.is_empty() && !name.contains(['\'', '\\']));
+    let Some(name) = name else { return "set it on both geoms".to_string() };
+    let short = what.field.trim_start_matches("geom_");
+    let second = format!("model.geom('{name}').{short}[{component}] = value");
+    let action = control.action();
+    if action.is_some_and(|a| a.set.as_ref().is_some_and(|set| set.as_str() == text)) {
+        return format!(
+            "set it on both geoms: write `\"apply\": \"{text} = value; {second}\"` instead of `set`"
+        );
+    }
+    match text.contains("= value") {
+        true => format!("set it on both geoms: add `; {second}`"),
+        false => format!("set it on both geoms, also on \"{name}\""),
     }
 }
 
@@ -93,36 +153,46 @@ fn differs(
     index: usize,
     value: labspec_expr::Value,
     what: &Mixed,
-) -> Option<([usize; 2], f64, f64)> {
+) -> Option<MixedContact> {
     let ready = observed.bench.ready;
     let (key, budget) = (ready.lab.keyframe(), observed.bench.budget());
     let start = Start { key, plan: Some(Plan::full()), budget };
     let mut session = Session::start(&ready.programs, &ready.model, start);
-    let all = |session: &Session<'_>| -> Vec<Option<f64>> {
-        (0..ready.model.ngeom).map(|g| (what.value_of_geom)(&session.world.model, g)).collect()
+    let all = |session: &Session<'_>| -> Vec<Vec<f64>> {
+        let model = &session.world.model;
+        (0..ready.model.ngeom).map(|g| (what.of_geom)(model, g).unwrap_or(&[]).to_vec()).collect()
     };
     let before = all(&session);
     session.set_control(index, value);
     let after = all(&session);
-    let changed = |g: usize| before.get(g) != after.get(g);
-    let mut found = None;
-    run::play(&mut session, &Play { every: STEP_INTERVAL, ..Play::steps(STEPS) }, |session, _| {
+    let changed = |g: usize| {
+        let (before, after) = (before.get(g)?, after.get(g)?);
+        before.iter().zip(after).position(|(a, b)| a.to_bits() != b.to_bits())
+    };
+    let (mut found, mut observed_contact) = (None, false);
+    let steps = (stress::window(ready.lab) / session.world.model.opt.timestep).min(MAX_STEPS as f64) as usize;
+    let played = Play { every: STEP_INTERVAL, ..Play::steps(steps.max(STEPS)) };
+    run::play(&mut session, &played, |session, step| {
         for c in session.world.data.fields().contact.iter().filter(|c| c.efc_address.is_some()) {
-            let pair = match (changed(c.geom1), changed(c.geom2)) {
-                (true, false) => [c.geom1, c.geom2],
-                (false, true) => [c.geom2, c.geom1],
-                _ => continue,
+            let (geoms, component) = match (changed(c.geom1), changed(c.geom2)) {
+                (Some(k), None) => ([c.geom1, c.geom2], k),
+                (None, Some(k)) => ([c.geom2, c.geom1], k),
+                (Some(_), Some(_)) => {
+                    observed_contact = true;
+                    continue;
+                }
+                (None, None) => continue,
             };
-            let has = if what.field == "geom_friction" { c.friction.first() } else { c.solref.first() };
-            let written = pair.first().and_then(|g| after.get(*g).copied().flatten());
-            if let (Some(&has), Some(written)) = (has, written)
-                && (has - written).abs() > 1e-6 * written.abs()
+            observed_contact = true;
+            let written = after.get(geoms[0]).and_then(|values| values.get(component)).copied();
+            if let (Some(used), Some(written)) = ((what.of_contact)(c, component), written)
+                && (used - written).abs() > 1e-6 * written.abs()
             {
-                found = Some((pair, written, has));
+                found = Some(MixedContact { geoms, component, written, used });
                 return ControlFlow::Break(());
             }
         }
-        ControlFlow::Continue(())
+        if observed_contact && step >= STEPS { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
     found.filter(|_| session.ended().is_none())
 }

@@ -7,6 +7,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const MIXED_DIMENSIONS: &Rule = &Rule {
     code: "mixed-dimensions",
     severity: Severity::Warning,
+    exceptions: &[(Severity::Note, "in statements, because a controller may have gains of 1")],
     layer: Layer::Program,
     summary: "an expression adds or compares quantities of different dimensions",
     why: "a sum of metres and seconds means nothing: often an index is off by one, or a factor is missing. In statements it is only a note, because a controller may have gains of 1. A literal factor may carry a unit, so a sum with one is not reported",

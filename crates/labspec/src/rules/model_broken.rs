@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const MODEL_BROKEN: &Rule = &Rule {
     code: "model-broken",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "the model of a lab is invalid",
     why: "until the model loads, the lab cannot run and its expressions cannot be checked",

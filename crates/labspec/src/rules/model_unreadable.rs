@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const MODEL_UNREADABLE: &Rule = &Rule {
     code: "model-unreadable",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "a model file cannot be read",
     why: "the page shows an empty scene",

@@ -9,6 +9,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const NEAR_ITS_LIMIT: &Rule = &Rule {
     code: "near-its-limit",
     severity: Severity::Note,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "the lab breaks at twice its timestep",
     why: "at its own timestep it works, but a slightly stiffer model or a page with longer steps breaks it",

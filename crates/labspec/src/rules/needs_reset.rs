@@ -8,6 +8,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const NEEDS_RESET: &Rule = &Rule {
     code: "needs-reset",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "only the setup reads the value of a control, and the control does not reset",
     why: "nothing happens when a student moves it: the setup runs only when the lab loads and at a reset",

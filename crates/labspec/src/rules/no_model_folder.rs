@@ -6,6 +6,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const NO_MODEL_FOLDER: &Rule = &Rule {
     code: "no-model-folder",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "the model folder does not exist",
     why: "a lab that names its model cannot run, so nothing about it can be checked",

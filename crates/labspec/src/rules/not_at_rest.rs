@@ -9,6 +9,7 @@ use std::ops::ControlFlow;
 pub const NOT_AT_REST: &Rule = &Rule {
     code: "not-at-rest",
     severity: Severity::Note,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "a lab says that it begins at rest or in equilibrium, but its keyframe is not an equilibrium",
     why: "a student sees it move from the start, and looks for the reason in the control they changed",

@@ -9,6 +9,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const NOT_POSITIVE: &Rule = &Rule {
     code: "not-positive",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "a time, size or speed is zero or negative",
     why: "there is nothing to run or to draw, so the lab shows nothing",

@@ -5,6 +5,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const NOT_UTF8: &Rule = &Rule {
     code: "not-utf8",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Source,
     summary: "a file is not UTF-8",
     why: "a page reads lessons as UTF-8, so letters beyond plain English appear as a black diamond",

@@ -1,13 +1,17 @@
 //! Numbers without a claim: most of them in a lesson without a review, or a few in a lesson that claims the others.
 
+use super::explanation_unclaimed::check_explanations;
+use crate::json::encode;
 use crate::spec::Lesson;
-use crate::verify::{Stated, counted};
+use crate::verify::{Counted, Stated, counted, quoted};
 use labspec_finding::{Example, Finding, Layer, Rule, Severity};
+use std::ops::Range;
 
 /// The lesson states numbers with units that no `verify` quotes.
 pub const NUMBERS_UNCLAIMED: &Rule = &Rule {
     code: "numbers-unclaimed",
     severity: Severity::Note,
+    exceptions: &[],
     layer: Layer::Claim,
     summary: "the lesson states numbers with units that no `verify` quotes",
     why: "every check recomputes a quoted number; a number that is not quoted may become wrong when the model changes",
@@ -28,19 +32,34 @@ const FEWEST: usize = 3;
 /// The maximum length of a lesson that is searched, bytes.
 const MAX_LESSON: usize = 2 << 20;
 
-/// Reports each number separately if nearly all are claimed. Otherwise reports the first one of the text, with the count.
-pub(crate) fn check_unclaimed_numbers(lesson: &Lesson, findings: &mut Vec<Finding>) {
+/// Reports the numbers of the explanations of verified questions, whose `verify` objects have these spans. Reports each number
+/// separately if nearly all are claimed. Otherwise reports the first one of the text, with the count.
+pub(crate) fn check_unclaimed_numbers(
+    lesson: &Lesson,
+    verified: &[Range<usize>],
+    findings: &mut Vec<Finding>,
+) {
     // If nothing can be claimed, nothing is missing. Very long lessons are not searched.
     let nothing = lesson.labs.is_empty() && lesson.verifies().next().is_none();
     if nothing || lesson.file.text().len() > MAX_LESSON {
         return;
     }
     let counted = counted(lesson);
-    // The answer of a question has its `value` instead.
-    let numbers = |list: Vec<Stated>| list.into_iter().filter(|s| !s.answer).collect::<Vec<_>>();
-    let [claimed, left] = [counted.claimed, counted.left].map(numbers);
-    let all = claimed.len() + left.len();
-    if claimed.len() >= MIN_CLAIMS && left.len() * SHARE <= all {
+    let mut reported = suggest_quotes(lesson, &counted, findings);
+    let unquoted = Counted {
+        left: counted.left.iter().filter(|s| !is_among(s, &reported)).cloned().collect(),
+        ..counted.clone()
+    };
+    reported.extend(check_explanations(lesson, &unquoted, verified, findings));
+    let count = counted.count();
+    let Counted { claimed, mut left, others } = counted;
+    left.retain(|s| !is_among(s, &reported));
+    // A lesson that claims nearly every number claims those of options, too.
+    let options: Vec<Stated> = others.into_iter().filter(|s| !s.answer && !s.bound).collect();
+    let all = count + options.len();
+    if claimed.len() >= MIN_CLAIMS && (left.len() + options.len()) * SHARE <= all {
+        left.extend(options);
+        left.sort_by_key(|s| s.span.start);
         for s in left {
             let others = all - 1;
             let message = format!(
@@ -54,19 +73,59 @@ pub(crate) fn check_unclaimed_numbers(lesson: &Lesson, findings: &mut Vec<Findin
         }
         return;
     }
-    // All options of a question but one are wrong, so no claim can be about them.
-    let in_text = |list: Vec<Stated>| list.into_iter().filter(|s| is_text(lesson, s)).collect::<Vec<_>>();
-    let [claimed, left] = [claimed, left].map(in_text);
-    if let Some(first) = left.first().filter(|_| left.len() >= FEWEST && !lesson.labs.is_empty()) {
-        let (some, all) = (claimed.len(), claimed.len() + left.len());
+    // A claim that does not find its text may be about these numbers.
+    if findings.iter().any(|f| f.code == super::QUOTE_NOT_FOUND.code) {
+        return;
+    }
+    // Numbers of labs and questions are data of the task more often than results.
+    let in_text: Vec<&Stated> = left.iter().filter(|s| is_text(lesson, s)).collect();
+    if let Some(first) = in_text.first().filter(|_| in_text.len() >= FEWEST && !lesson.labs.is_empty()) {
+        let (some, all) = (claimed.len(), count);
         let message = format!(
-            "the text has {all} numbers with units and `verify` quotes {some} of them; this is the first one that it does not quote"
+            "the lesson has {all} numbers with units and `verify` quotes {some} of them; this is the first one that it does not quote"
         );
         findings.push(
             Finding::new(NUMBERS_UNCLAIMED, first.span.clone(), message)
                 .help("quote numbers that come from a run under `says` of a `verify`; `labspec trace` finds their origin"),
         );
     }
+}
+
+fn is_among(s: &Stated, list: &[Stated]) -> bool {
+    list.iter().any(|other| other.span == s.span)
+}
+
+/// The relative difference up to which a number is that of a quote with fewer digits.
+const NEARLY_EQUAL: f64 = 0.02;
+
+/// Adds the number of the text that a quote probably means to the finding about a quote that does not appear: the same number
+/// with another spelling of its unit, or with other digits. Returns these numbers; they are not reported again.
+fn suggest_quotes(lesson: &Lesson, counted: &Counted, findings: &mut [Finding]) -> Vec<Stated> {
+    let mut suggested: Vec<Stated> = Vec::new();
+    for finding in findings.iter_mut().filter(|f| f.code == super::QUOTE_NOT_FOUND.code) {
+        let text = lesson.file.text().get(finding.span.clone()).unwrap_or("");
+        let Ok(read) = quoted(text) else { continue };
+        let remark = lesson.remarks.iter().find(|remark| contains(&remark.span, &finding.span));
+        let difference = |s: &Stated| (s.read.value - read.value).abs();
+        let is_meant = |s: &&Stated| {
+            difference(s) <= NEARLY_EQUAL * read.value.abs()
+                && remark.is_none_or(|remark| contains(&remark.over, &s.span))
+        };
+        let mut meant: Vec<&Stated> = counted.left.iter().filter(is_meant).collect();
+        meant.sort_by(|a, b| difference(a).total_cmp(&difference(b)));
+        let Some(meant) = meant.first().filter(|s| !is_among(s, &suggested)) else { continue };
+        *finding = finding
+            .clone()
+            .help(format!("quote what the text says: write `{}`", meant.quote))
+            .guess(finding.span.clone(), encode(&meant.quote))
+            .related(meant.span.clone(), "the text says it here");
+        suggested.push((*meant).clone());
+    }
+    suggested
+}
+
+fn contains(outer: &Range<usize>, inner: &Range<usize>) -> bool {
+    outer.start <= inner.start && inner.end <= outer.end
 }
 
 /// Whether a number is outside all labs and quizzes.

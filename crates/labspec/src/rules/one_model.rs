@@ -6,6 +6,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const ONE_MODEL: &Rule = &Rule {
     code: "one-model",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "a lab has neither `model` nor `xml`, or has both",
     why: "a lab simulates exactly one model",

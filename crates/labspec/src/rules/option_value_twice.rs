@@ -8,6 +8,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const OPTION_VALUE_TWICE: &Rule = &Rule {
     code: "option-value-twice",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "two options of a select have the same value",
     why: "a student chooses the other option, and the lab stays the same",

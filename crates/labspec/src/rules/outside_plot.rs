@@ -8,6 +8,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const OUTSIDE_PLOT: &Rule = &Rule {
     code: "outside-plot",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "a trace is outside its plot most of the time, in every run",
     why: "`ymin` and `ymax` are the ends of the axis: the page does not draw what is above or below",
@@ -53,11 +54,19 @@ pub(crate) fn check_trace_range(
     Some(
         Finding::warning(OUTSIDE_PLOT, trace.expr.span(), message)
             .why(format!(
-                "as the lab stands it goes from {least} to {largest}, and is inside for {:.0} % of the time; in {} it is inside for at most {:.0} %",
-                100.0 * nominal_share,
+                "as the lab stands it goes from {least} to {largest}, and is inside for {} of the time; in {} it is inside for at most {}",
+                percent(nominal_share),
                 observed.runs(),
-                100.0 * most
+                percent(most)
             ))
             .help("widen `ymin` and `ymax` to include the curve, or delete them: the plot then follows it"),
     )
+}
+
+/// A share in percent. One that is not zero is not printed as 0 %.
+fn percent(share: f64) -> String {
+    match 100.0 * share {
+        x if x > 0.0 && x < 0.5 => "less than 1 %".to_string(),
+        x => format!("{x:.0} %"),
+    }
 }

@@ -17,6 +17,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const OVERRULED: &Rule = &Rule {
     code: "overruled",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "the setup or the controller overwrites what a control sets",
     why: "a student reads one value beside the slider, but the lab uses another: the setup overwrites it once, or the controller in every step",

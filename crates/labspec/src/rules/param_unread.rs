@@ -8,6 +8,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const PARAM_UNREAD: &Rule = &Rule {
     code: "param-unread",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "nothing reads the variable of a `param`",
     why: "the page stores the value as `ctx.NAME`, but no expression of the lesson uses it: moving the control changes nothing",
@@ -43,7 +44,7 @@ pub(crate) fn check_params(lesson: &Lesson, ready: &PreparedLab<'_>, findings: &
             .map(|slot| programs.globals.name(*slot))
             .collect();
         let help = match nearest(&name.value, others) {
-            Some(near) => format!("did you mean `ctx.{near}`, which the lab reads?"),
+            Some(near) => format!("did you mean `{near}`? the lab reads `ctx.{near}`"),
             None => format!("read it as `ctx.{}` where it should act, or delete the control", name.value),
         };
         findings.push(

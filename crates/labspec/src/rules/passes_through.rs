@@ -3,7 +3,8 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 /// Decided by `observe` in `monitors/through.rs`.
 pub const PASSES_THROUGH: &Rule = &Rule {
     code: "passes-through",
-    severity: Severity::Error,
+    severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "a body passes through another one",
     why: "it moves farther in a step than the other body is thick, so no step finds a contact: a student sees walls that hold nothing",

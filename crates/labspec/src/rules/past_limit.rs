@@ -3,7 +3,8 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 /// Decided by `observe` in `monitors/limits.rs`.
 pub const PAST_LIMIT: &Rule = &Rule {
     code: "past-limit",
-    severity: Severity::Error,
+    severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "a joint exceeds its limit by a large part of its range",
     why: "one step takes it past the limit, or something is stronger than the limit: a student sees the joint where it cannot be",

@@ -6,6 +6,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const PREDICTION_UNCHECKED: &Rule = &Rule {
     code: "prediction-unchecked",
     severity: Severity::Note,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "predictions have no `verify`, so nothing checks their answers",
     why: "the lab that decides them is available: every check runs a `verify`, and reports when a change of the model makes an answer false",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const PRESSED_DEEP: &Rule = &Rule {
     code: "pressed-deep",
     severity: Severity::Note,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "bodies are pressed deep into each other at some setting of the controls",
     why: "a student who finds this setting sees bodies inside each other; the text may intend it, or it may be an accident",

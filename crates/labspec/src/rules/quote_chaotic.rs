@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const QUOTE_CHAOTIC: &Rule = &Rule {
     code: "quote-chaotic",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Claim,
     summary: "the digits of a quoted number change when the start changes by less than rounding",
     why: "no reader can reproduce them on another computer or with another version of the simulator",

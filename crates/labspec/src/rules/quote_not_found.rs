@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const QUOTE_NOT_FOUND: &Rule = &Rule {
     code: "quote-not-found",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Claim,
     summary: "the quoted text does not appear in the rendered lesson",
     why: "the check is about a number that no reader sees",

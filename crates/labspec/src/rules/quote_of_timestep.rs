@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const QUOTE_OF_TIMESTEP: &Rule = &Rule {
     code: "quote-of-timestep",
     severity: Severity::Note,
+    exceptions: &[],
     layer: Layer::Claim,
     summary: "the digits of a quoted number change at half the timestep",
     why: "the number is right for this timestep only; a reader with another timestep finds another number",

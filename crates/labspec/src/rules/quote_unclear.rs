@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const QUOTE_UNCLEAR: &Rule = &Rule {
     code: "quote-unclear",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Claim,
     summary: "a quoted number has two readings, or none",
     why: "the checker compares nothing, because guessing the number would make the verdict a guess",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const QUOTE_UNIT: &Rule = &Rule {
     code: "quote-unit",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Claim,
     summary: "a quoted number and its expression differ by a power of ten",
     why: "the text uses another unit than the expression, so the two cannot be compared",

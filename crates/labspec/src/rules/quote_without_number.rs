@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const QUOTE_WITHOUT_NUMBER: &Rule = &Rule {
     code: "quote-without-number",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Claim,
     summary: "a quote contains no number",
     why: "there is nothing to compare",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const QUOTE_WRONG: &Rule = &Rule {
     code: "quote-wrong",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Claim,
     summary: "a number quoted in the text differs from the simulation",
     why: "a reader who measures it finds another number",

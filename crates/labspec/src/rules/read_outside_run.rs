@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const READ_OUTSIDE_RUN: &Rule = &Rule {
     code: "read-outside-run",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Claim,
     summary: "a claim reads the simulation at no time of the run",
     why: "a run has many samples, and the claim does not say which one it means: the number would be that of the lab before the run",

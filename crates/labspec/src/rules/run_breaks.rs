@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const RUN_BREAKS: &Rule = &Rule {
     code: "run-breaks",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Claim,
     summary: "a run of a `verify` object breaks",
     why: "it meets a bad number, goes wrong silently (energy from nothing, a body through another one), or an expression throws: its measures prove nothing",

@@ -4,12 +4,13 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const RUN_IMPOSSIBLE: &Rule = &Rule {
     code: "run-impossible",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Claim,
     summary: "a run cannot be made",
     why: "it does something that no student can do (a missing control, a value off the steps of a slider, a press after the end), or takes too many steps",
     bad: Example::Question(
         r##"{"kind": "mcq", "q": "What happens to the ball?", "options": ["It falls", "It rises"], "answer": 0, "explain": "It has a weight.",
- "verify": {"lab": "#1", "runs": {"⟦run⟧": {"press": [["Kick", 0.1]], "until": 0.3}}, "measure": {"z": "final(data.qpos[2])"}, "options": ["run.z < 1", "run.z > 1"]}}"##,
+ "verify": {"lab": "#1", "runs": {"run": {"key": "⟦high⟧", "until": 0.3}}, "measure": {"z": "final(data.qpos[2])"}, "options": ["run.z < 1", "run.z > 1"]}}"##,
     ),
     good: Example::Question(
         r##"{"kind": "mcq", "q": "What happens to the ball?", "options": ["It falls", "It rises"], "answer": 0, "explain": "It has a weight.",

@@ -7,6 +7,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const RUN_LENGTH: &Rule = &Rule {
     code: "run-length",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "a run has both `until` and `steps`",
     why: "the two may contradict each other",

@@ -3,7 +3,8 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 /// Decided by `unbounded_speed` in `stress/runaway.rs`.
 pub const RUNS_AWAY: &Rule = &Rule {
     code: "runs-away",
-    severity: Severity::Error,
+    severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "the motion grows beyond every sensible bound without a warning of the engine",
     why: "it grows in every step, far beyond what gravity and the start can cause: a student sees something leave the picture, and nothing says why",

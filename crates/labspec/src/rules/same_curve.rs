@@ -11,6 +11,7 @@ use std::ops::Range;
 pub const SAME_CURVE: &Rule = &Rule {
     code: "same-curve",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "two traces of a plot are always the same curve",
     why: "one hides the other: often an expression was copied and not changed. The rule skips curves that agree only because of the physics; those differ when the scene starts from another state",

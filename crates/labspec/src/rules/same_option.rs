@@ -10,6 +10,7 @@ use std::collections::HashMap;
 pub const SAME_OPTION: &Rule = &Rule {
     code: "same-option",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "two options of a question differ only in capitals, punctuation or articles",
     why: "they say the same thing, and one of them is graded as wrong",

@@ -7,6 +7,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const SAME_READOUT: &Rule = &Rule {
     code: "same-readout",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "two readouts have the same expression",
     why: "one of them is a copy whose expression was not changed. The rule skips a readout with more decimals whose label shares a word with the other",

@@ -6,6 +6,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const SELECT_VALUE: &Rule = &Rule {
     code: "select-value",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "the start value of a select is not one of its options",
     why: "the page shows the first option, but the lab starts with the value written here",

@@ -12,6 +12,7 @@ use std::ops::ControlFlow;
 pub const SETCONST_JUMPS: &Rule = &Rule {
     code: "setconst-jumps",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "a control calls `mj_setConst` in the middle of a run, and the scene jumps",
     why: "`mj_setConst` moves the coordinates back to those of the model: a falling ball returns to its start and keeps its speed",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const SHAPE_ALONE: &Rule = &Rule {
     code: "shape-alone",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "a program changes the size or the position of a geom but not the values that follow from it",
     why: "MuJoCo finds contacts within the bounding radius, and turns a body by its inertia about its centre of mass: without the first a larger geom passes through others, without the others the body turns as before. The finding states what differs in a run with these values corrected",

@@ -6,6 +6,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const SHORT_WINDOW: &Rule = &Rule {
     code: "short-window",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "the window of a plot is so short that its curve has only a few points",
     why: "a page samples once per drawn frame",

@@ -6,6 +6,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const SHOWS_INFINITE: &Rule = &Rule {
     code: "shows-infinite",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "a trace or a readout shows inf",
     why: "the expression divides by 0",

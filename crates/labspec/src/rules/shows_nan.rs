@@ -9,6 +9,7 @@ use std::collections::BTreeSet;
 pub const SHOWS_NAN: &Rule = &Rule {
     code: "shows-nan",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "a trace or a readout shows nan",
     why: "a student cannot tell whether the lab or the physics is broken. An intended gap writes `NaN` itself, or reads a variable that is stored later",

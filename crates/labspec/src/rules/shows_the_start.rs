@@ -9,6 +9,7 @@ use std::ops::ControlFlow;
 pub const SHOWS_THE_START: &Rule = &Rule {
     code: "shows-the-start",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "a readout shows the initial value of a coordinate that moves",
     why: "`model.qpos0` holds the initial coordinates and never changes; `data.qpos` holds the current ones. The rule reports it if the coordinate moves in a run and the label does not mention the start",

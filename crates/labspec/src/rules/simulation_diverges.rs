@@ -3,7 +3,8 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 /// Decided by `explain_warning` in `run/diagnose.rs`.
 pub const SIMULATION_DIVERGES: &Rule = &Rule {
     code: "simulation-diverges",
-    severity: Severity::Error,
+    severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "the simulation meets a value that is NaN, infinite or above 1e10",
     why: "MuJoCo resets the data and continues from time 0: a student sees the scene jump back without an explanation",

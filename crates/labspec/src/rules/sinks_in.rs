@@ -3,7 +3,8 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 /// Decided by `observe` in `monitors/sunk.rs`.
 pub const SINKS_IN: &Rule = &Rule {
     code: "sinks-in",
-    severity: Severity::Error,
+    severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "a body stays inside another one by a large part of its size",
     why: "the contact is too soft for the load, or cannot push any harder: a student sees bodies sunk into each other instead of resting on each other",

@@ -6,6 +6,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const SLIDER_DIGITS: &Rule = &Rule {
     code: "slider-digits",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "a slider shows fewer decimals than its step has",
     why: "neighbouring values look the same",

@@ -6,6 +6,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const SLIDER_GRID: &Rule = &Rule {
     code: "slider-grid",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "the start value of a slider is between two of its steps",
     why: "the slider shows another value than the lab starts with, and a student who moves it cannot return",

@@ -6,6 +6,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const SLIDER_STEP: &Rule = &Rule {
     code: "slider-step",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "the step of a slider is not positive, or larger than its range",
     why: "the slider cannot move",

@@ -6,6 +6,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const SLIDER_VALUE: &Rule = &Rule {
     code: "slider-value",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "the start value of a slider is outside its range",
     why: "the page moves the slider to the nearest end, but the lab starts with the value written here",
@@ -29,7 +30,10 @@ fn check_control(control: &Control, findings: &mut Vec<Finding>) {
         findings.push(
             Finding::new(SLIDER_VALUE, value.span.clone(), message)
                 .related(end.span.clone(), "the nearest end")
-                .help("change the value, or widen the range to include it"),
+                .help(format!(
+                    "write {}, the nearest end, or widen the range to include {}",
+                    end.value, value.value
+                )),
         );
     }
 }

@@ -7,6 +7,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const SLIP_ACCEPTED: &Rule = &Rule {
     code: "slip-accepted",
     severity: Severity::Warning,
+    exceptions: &[(Severity::Note, "if the tolerance accepts the answer for g = 10")],
     layer: Layer::Structure,
     summary: "the tolerance of a numeric question accepts the most common slip, a factor of 2",
     why: "a student who forgets the half in an energy, or takes a diameter for a radius, is graded as correct",

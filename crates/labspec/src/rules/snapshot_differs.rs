@@ -5,6 +5,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const SNAPSHOT_DIFFERS: &Rule = &Rule {
     code: "snapshot-differs",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "the output of a lab differs from its snapshot",
     why: "the lab has changed since someone reviewed it: a student sees other curves than the reviewer",

@@ -5,6 +5,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const SNAPSHOT_OUTDATED: &Rule = &Rule {
     code: "snapshot-outdated",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "a lab has changed since its snapshot was taken",
     why: "some stored output is no longer shown, or some shown output is not stored: nobody has reviewed it",

@@ -5,6 +5,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const SNAPSHOT_UNREADABLE: &Rule = &Rule {
     code: "snapshot-unreadable",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Source,
     summary: "a snapshot cannot be read",
     why: "nothing stored in it is compared",

@@ -5,6 +5,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const SNAPSHOT_WITHOUT_LESSON: &Rule = &Rule {
     code: "snapshot-without-lesson",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Source,
     summary: "a snapshot has no lesson",
     why: "a renamed or moved lesson is no longer compared with its snapshot, and nobody notices",

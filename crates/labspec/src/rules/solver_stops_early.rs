@@ -3,7 +3,8 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 /// Decided by `observe` in `monitors/unsolved.rs`.
 pub const SOLVER_STOPS_EARLY: &Rule = &Rule {
     code: "solver-stops-early",
-    severity: Severity::Error,
+    severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "the solver stops before it has found the forces",
     why: "part of the force of contacts, limits and constraints is missing, step after step: a student sees stacks collapse and things slide",

@@ -16,6 +16,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const STALE_READ: &Rule = &Rule {
     code: "stale-read",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "statements write the state, then read values that are computed from the old state",
     why: "`mj_forward` and a step compute world positions, sensors, contacts and forces from `qpos` and `qvel`; after a write they still belong to the old state",

@@ -9,6 +9,7 @@ use std::ops::ControlFlow;
 pub const STARTS_INSIDE: &Rule = &Rule {
     code: "starts-inside",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "a body begins deep inside another one",
     why: "the contact throws it out in the first steps: what a student sees at the start is not physics",

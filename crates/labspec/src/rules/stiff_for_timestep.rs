@@ -8,6 +8,7 @@ use std::ops::Range;
 pub const STIFF_FOR_TIMESTEP: &Rule = &Rule {
     code: "stiff-for-timestep",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "a servo, a spring or a contact is too stiff for the timestep",
     why: "every step overshoots more than the one before, and MuJoCo gives no warning until a number exceeds 1e10",

@@ -6,6 +6,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const STOP_UNREACHED: &Rule = &Rule {
     code: "stop-unreached",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "a lab never reaches its `stopAt`",
     why: "something resets it while it runs, and time starts again at 0: a student waits for an end that does not come",

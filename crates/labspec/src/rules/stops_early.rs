@@ -10,6 +10,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const STOPS_EARLY: &Rule = &Rule {
     code: "stops-early",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "a lab stops before anything that it shows changes, or before its curves are more than a dot",
     why: "a student presses play, and almost nothing happens: one step, or a fiftieth of a plot",

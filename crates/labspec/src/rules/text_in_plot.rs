@@ -6,6 +6,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const TEXT_IN_PLOT: &Rule = &Rule {
     code: "text-in-plot",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "a trace of a plot is a string",
     why: "a plot draws numbers: the curve is missing, or shows what the page makes of the string",

@@ -9,6 +9,7 @@ use std::collections::BTreeSet;
 pub const TOO_FEW_DIGITS: &Rule = &Rule {
     code: "too-few-digits",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "a readout prints nearly the same number although its value changes",
     why: "a student sees a number that does not move, or jumps once: it is printed with too few decimals",

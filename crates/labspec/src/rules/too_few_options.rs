@@ -7,6 +7,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const TOO_FEW_OPTIONS: &Rule = &Rule {
     code: "too-few-options",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "a question has fewer than two options",
     why: "a student has nothing to choose",

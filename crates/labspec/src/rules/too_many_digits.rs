@@ -10,6 +10,7 @@ use std::ops::ControlFlow;
 pub const TOO_MANY_DIGITS: &Rule = &Rule {
     code: "too-many-digits",
     severity: Severity::Note,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "a readout prints more decimals than the integration supports",
     why: "two or more decimals depend on the timestep: a student compares them with a formula, and takes the difference for physics",

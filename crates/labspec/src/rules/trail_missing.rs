@@ -8,6 +8,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const TRAIL_MISSING: &Rule = &Rule {
     code: "trail-missing",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "`trail` names a site that the model does not have",
     why: "the page silently draws no path",

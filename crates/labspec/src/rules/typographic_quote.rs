@@ -11,6 +11,7 @@ use std::ops::Range;
 pub const TYPOGRAPHIC_QUOTE: &Rule = &Rule {
     code: "typographic-quote",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "code contains a typographic quote",
     why: "word processors replace straight quotes; a program reads “ ” ‘ ’ as letters",

@@ -12,6 +12,7 @@ use std::ops::ControlFlow;
 pub const UNDONE_BY_RESET: &Rule = &Rule {
     code: "undone-by-reset",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Run,
     summary: "a button resets the data after it has changed them",
     why: "a reset restores every position, velocity and input: the changes are lost, and a student who presses the button sees the start",

@@ -10,6 +10,7 @@ use std::ops::Range;
 pub const UNESCAPED_ELEMENT: &Rule = &Rule {
     code: "unescaped-element",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "the text contains the name of an MJCF element as a tag",
     why: "a browser reads it as HTML: the name disappears, or a form control appears",

@@ -7,6 +7,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const UNEVEN_ANSWERS: &Rule = &Rule {
     code: "uneven-answers",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "the correct options of a course share one position so often that guessing pays",
     why: "a student who always picks that position scores as if they had understood half of it",

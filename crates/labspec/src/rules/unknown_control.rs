@@ -9,6 +9,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const UNKNOWN_CONTROL: &Rule = &Rule {
     code: "unknown-control",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "a run sets or presses a control that the lab does not have",
     why: "the run is not the one that the text describes",
@@ -46,6 +47,9 @@ fn missing(label: &Text, lab: &Lab, press: bool) -> Option<Finding> {
         return None;
     }
     let what = if press { "button" } else { "slider or select" };
+    if let Some(control) = lab.control(label.as_str()) {
+        return Some(wrong_kind(label, &control.kind));
+    }
     let labels: Vec<&str> =
         lab.controls.iter().filter(|c| fits(&c.kind)).map(|c| c.label.as_str()).take(MAX_CONTROLS).collect();
     let message = format!("the lab has no {what} {}", named(label.as_str()));
@@ -55,4 +59,21 @@ fn missing(label: &Text, lab: &Lab, press: bool) -> Option<Finding> {
         None if labels.is_empty() => found.help(format!("remove it: the lab has no {what}")),
         None => found.help(format!("use one of: {}", labels.join(", "))),
     })
+}
+
+/// Reports a button that a run sets, or a slider or select that it presses.
+fn wrong_kind(label: &Text, kind: &ControlKind) -> Finding {
+    let name = format!("\"{}\"", encode(label.as_str()));
+    let (message, help) = match kind {
+        ControlKind::Button { .. } => {
+            ("is a button: press it instead of setting it", format!("write \"press\": [[{name}, TIME]]"))
+        }
+        ControlKind::Slider { .. } => {
+            ("is a slider: set it instead of pressing it", format!("write \"set\": {{{name}: VALUE}}"))
+        }
+        ControlKind::Select { .. } => {
+            ("is a select: set it instead of pressing it", format!("write \"set\": {{{name}: VALUE}}"))
+        }
+    };
+    Finding::new(UNKNOWN_CONTROL, label.span(), format!("{} {message}", named(label.as_str()))).help(help)
 }

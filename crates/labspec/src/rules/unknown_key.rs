@@ -7,6 +7,7 @@ use std::ops::Range;
 pub const UNKNOWN_KEY: &Rule = &Rule {
     code: "unknown-key",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "an object has a key that the format does not know",
     why: "the page ignores it, so what it should do does not happen",

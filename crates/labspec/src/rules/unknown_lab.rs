@@ -2,7 +2,7 @@ use super::Check;
 use super::claims;
 use crate::json::read;
 use crate::source::Text;
-use crate::spec::{LabAddress, Lesson, VerifyLab};
+use crate::spec::{LabAddress, Lesson, UsedObject, VerifyLab};
 use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 use std::ops::Range;
 
@@ -10,6 +10,7 @@ use std::ops::Range;
 pub const UNKNOWN_LAB: &Rule = &Rule {
     code: "unknown-lab",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "a `verify` object refers to a lab that the lesson does not have",
     why: "nothing can be run, so nothing is checked",
@@ -26,9 +27,12 @@ pub(super) const CHECK: Check = Check::Lesson(check_lesson);
 fn check_lesson(lesson: &Lesson, findings: &mut Vec<Finding>) {
     let named = claims::all(lesson).flat_map(|claim| claim.verify.labs());
     for claim in claims::all(lesson) {
-        let Some((text, address)) = &claim.verify.uses else { continue };
-        let message = match lesson.verify_at(address) {
-            None => format!("{} has no `verify`", read::named(text.as_str())),
+        let Some((text, used)) = &claim.verify.uses else { continue };
+        let message = match lesson.used_object(used) {
+            None => match used {
+                UsedObject::Owner(_) => format!("{} has no `verify`", read::named(text.as_str())),
+                UsedObject::Defined(_) => format!("nothing defines {}", read::named(text.as_str())),
+            },
             Some(used) if used.span == claim.verify.span => "this `verify` uses itself".to_string(),
             // The referenced object could not be resolved.
             Some(_) if std::ptr::eq(lesson.whole(claim.verify), claim.verify) => {
@@ -38,7 +42,7 @@ fn check_lesson(lesson: &Lesson, findings: &mut Vec<Finding>) {
         };
         findings.push(
             Finding::new(UNKNOWN_LAB, text.span(), message)
-                .help("name a lab (#1) or a question (#quiz-id.2) that has one"),
+                .help("name a lab (#1) or a question (#quiz-id.2) with a `verify`, or a comment `<!-- labspec define NAME {…} -->`"),
         );
     }
     for lab in named {
@@ -61,8 +65,15 @@ fn check_lesson(lesson: &Lesson, findings: &mut Vec<Finding>) {
 
 /// Reports a text that is not an address, where an address is required.
 pub(crate) fn not_an_address(span: Range<usize>, text: &str) -> Finding {
-    Finding::new(UNKNOWN_LAB, span, format!("{} is not the address of a lab", read::named(text)))
-        .help("write \"#2\" for the second lab of the lesson, \"#quiz-id.1\" for the sim of a quiz's first question, or a lab object")
+    let found =
+        Finding::new(UNKNOWN_LAB, span.clone(), format!("{} is not the address of a lab", read::named(text)));
+    // A number alone, or with other words, probably counts the labs.
+    let digits = text.trim_start_matches(|c: char| !c.is_ascii_digit());
+    if let Ok(number @ 1..) = digits.trim_end().parse::<usize>() {
+        let address = format!("#{number}");
+        return found.help(format!("write \"{address}\"")).guess(span, address);
+    }
+    found.help("write \"#2\" for the second lab of the lesson, \"#quiz-id.1\" for the sim of a quiz's first question, or a lab object")
 }
 
 /// Reports a lab of another lesson that cannot be used. `other`: the reason, if that lesson was read.

@@ -8,6 +8,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const UNKNOWN_MODEL: &Rule = &Rule {
     code: "unknown-model",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "the model is not in the model folder",
     why: "the page cannot load it, and shows an empty lab",

@@ -8,6 +8,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const UNKNOWN_OVERLAY: &Rule = &Rule {
     code: "unknown-overlay",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "`overlays` or `toggles` names something that the page cannot draw",
     why: "the page draws nothing, or the checkbox does nothing",

@@ -6,6 +6,7 @@ use std::ops::Range;
 pub const UNKNOWN_RULE: &Rule = &Rule {
     code: "unknown-rule",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "`allow` names an unknown rule",
     why: "it suppresses nothing: the intended finding is still reported",

@@ -5,6 +5,7 @@ use std::ops::Range;
 pub const UNKNOWN_SPEC: &Rule = &Rule {
     code: "unknown-spec",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Source,
     summary: "a JSON file holds neither a lab nor a quiz",
     why: "the page can show nothing of it",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const UNKNOWN_TRACE: &Rule = &Rule {
     code: "unknown-trace",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Claim,
     summary: "a closed form or a measure names a trace or a readout that the lab does not have",
     why: "the lab has no values to compare it with",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const UNREADABLE_FILE: &Rule = &Rule {
     code: "unreadable-file",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Source,
     summary: "a file cannot be read",
     why: "nothing in it is checked",

@@ -6,6 +6,7 @@ use std::ops::Range;
 pub const UNUSED_ALLOWANCE: &Rule = &Rule {
     code: "unused-allowance",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "a suppression matches no finding",
     why: "it would hide the finding if it came back, and nobody would review it",

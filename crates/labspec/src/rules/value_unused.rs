@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const VALUE_UNUSED: &Rule = &Rule {
     code: "value-unused",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "the statements of a control never use `value`",
     why: "moving the control changes nothing",

@@ -1,5 +1,7 @@
 use super::Check;
 use super::claims;
+use crate::json::read::shorten;
+use crate::printable::counted;
 use crate::source::Text;
 use crate::spec::{Lesson, Question, QuestionKind, Verify};
 use labspec_finding::{Example, Finding, Layer, Rule, Severity};
@@ -8,6 +10,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const VERIFY_ANSWER: &Rule = &Rule {
     code: "verify-answer",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "`verify` lacks a condition for an option, has a value where no number is asked, or uses an unknown unit",
     why: "exactly one condition must be true, that of the correct option, so every option needs one",
@@ -82,11 +85,27 @@ fn check_count(verify: &Verify, question: &Question, findings: &mut Vec<Finding>
                     format!("`options` has {conditions} conditions for {options} options")
                 },
             )
-            .help(if is_statement {
-                "write one condition, which holds if the statement is true"
-            } else {
-                "write one condition per option, in their order"
-            }),
+            .help(count_help(conditions, question)),
         );
+    }
+}
+
+/// Which conditions to add or to delete.
+fn count_help(conditions: usize, question: &Question) -> String {
+    let QuestionKind::Choice { options, .. } = &question.kind else {
+        return "write one condition, which holds if the statement is true".into();
+    };
+    match options.get(conditions..) {
+        Some([first, others @ ..]) => {
+            let more = if others.is_empty() { "" } else { " and for each option after it" };
+            format!(
+                "write one condition per option, in their order: add one for \"{}\"{more}, or `\"undecided\"`",
+                shorten(first.as_str())
+            )
+        }
+        _ => format!(
+            "write one condition per option, in their order: delete {}",
+            counted(conditions - options.len(), "condition")
+        ),
     }
 }

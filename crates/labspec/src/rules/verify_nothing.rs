@@ -5,6 +5,7 @@ use std::ops::Range;
 pub const VERIFY_NOTHING: &Rule = &Rule {
     code: "verify-nothing",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "a `verify` object claims nothing",
     why: "its runs are made, but the checker compares nothing with them",
@@ -15,6 +16,13 @@ pub const VERIFY_NOTHING: &Rule = &Rule {
         r#"{"model": "ball", "note": "It rests at 0.10 m.", "verify": {"runs": {"drop": {"until": 2}}, "says": [["0.10 m", "final(data.qpos[2])"]]}}"#,
     ),
 };
+
+/// Reports a definition with claims: they are not about any text.
+pub(crate) fn claims_in_definition(span: Range<usize>) -> Finding {
+    Finding::new(VERIFY_NOTHING, span, "the claims of a definition are not checked")
+        .why("a definition has only runs, measures and searches, which other `verify` objects use")
+        .help("move the claims into the `verify` object that uses it")
+}
 
 /// Reports a `verify` object that has only runs.
 pub(crate) fn claims_nothing(span: Range<usize>) -> Finding {

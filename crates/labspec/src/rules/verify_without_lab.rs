@@ -7,6 +7,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const VERIFY_WITHOUT_LAB: &Rule = &Rule {
     code: "verify-without-lab",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "a `verify` object has no lab to run",
     why: "the question has no `sim`, so `verify` must name the lab; formulas alone need no lab",

@@ -6,6 +6,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const WIDE_TOLERANCE: &Rule = &Rule {
     code: "wide-tolerance",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "the tolerance of a numeric question is as large as its answer",
     why: "even 0 counts as right, so the question tests nothing",

@@ -6,6 +6,7 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 pub const ZERO_TOLERANCE: &Rule = &Rule {
     code: "zero-tolerance",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Structure,
     summary: "a numeric question with the answer 0 states no tolerance",
     why: "the default is 2 % of the answer, and 2 % of 0 is 0: only an exact 0 counts as right",

@@ -23,5 +23,5 @@ pub fn describe_breakdown(b: &Breakdown, done: &str, place: Range<usize>) -> Fin
         "simulation-diverges" | "energy-grows" => format!("the simulation breaks {done}: {}", b.what),
         _ => format!("the simulation goes wrong {done}: {}", b.what),
     };
-    Finding::warning(b.rule, place, what).why(b.why).help(b.help())
+    Finding::plain(b.rule, place, what).why(b.why).help(b.help())
 }

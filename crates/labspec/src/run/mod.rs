@@ -30,7 +30,7 @@ pub use play::{Play, play};
 pub use program_error::ProgramError;
 pub use samples::Samples;
 pub use session::{Session, Start};
-pub use settings::{presses, presses_within, set_controls};
+pub use settings::{presses, presses_within, set_controls, swept_value};
 pub use steady::is_steady;
 pub use table::{FinalValue, Table, final_values};
 pub use variant::StepVariant;
@@ -69,15 +69,40 @@ const MAX_TEXT: usize = 64 << 20;
 
 /// Why a run did not start.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct RunError(pub String);
+pub struct RunError {
+    /// What prevents it.
+    pub message: String,
+    /// What to write instead, if that is known.
+    pub help: Option<String>,
+}
+
+impl RunError {
+    /// An error without advice.
+    pub fn new(message: impl Into<String>) -> RunError {
+        RunError { message: message.into(), help: None }
+    }
+
+    /// Adds advice.
+    pub(crate) fn help(self, help: impl Into<String>) -> RunError {
+        RunError { help: Some(help.into()), ..self }
+    }
+}
 
 impl std::fmt::Display for RunError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(&self.0)
+        match &self.help {
+            Some(help) => write!(f, "{}: {help}", self.message),
+            None => f.write_str(&self.message),
+        }
     }
 }
 
 impl std::error::Error for RunError {}
+
+/// The `stopAt` of a lab. Another rule reports one that is not positive.
+fn stated_length(lab: &Lab) -> Option<f64> {
+    lab.stop_at.as_ref().map(|stop| stop.value).filter(|length| *length > 0.0)
+}
 
 /// Number of steps of a length.
 ///
@@ -92,13 +117,13 @@ pub fn count_steps(
     if let Some(n) = steps {
         return match n <= MAX_STEPS {
             true => Ok(n),
-            false => Err(RunError(format!("a run of {n} steps is too long; the limit is {MAX_STEPS}"))),
+            false => Err(RunError::new(format!("a run of {n} steps is too long; the limit is {MAX_STEPS}"))),
         };
     }
-    let length = until.or(lab.stop_at.as_ref().map(|s| s.value)).unwrap_or(RUN_LENGTH);
+    let length = until.or(stated_length(lab)).unwrap_or(RUN_LENGTH);
     let text = |x: f64| Value::Number(x).to_string();
     if !(0.0..f64::INFINITY).contains(&length) {
-        return Err(RunError(format!(
+        return Err(RunError::new(format!(
             "a run cannot last {} s; its length is a number of seconds, 0 or more",
             text(length)
         )));
@@ -106,7 +131,7 @@ pub fn count_steps(
     // Rounds like JavaScript's Math.round, as a page does.
     let count = (length / timestep + 0.5).floor();
     if !(0.0..=MAX_STEPS as f64).contains(&count) {
-        return Err(RunError(match timestep > 0.0 {
+        return Err(RunError::new(match timestep > 0.0 {
             true => format!(
                 "a run of {} s at a timestep of {} s would take {} steps; the limit is {MAX_STEPS}",
                 text(length),
@@ -153,7 +178,7 @@ pub(crate) fn begin<'p>(
     presses_within(programs, &presses, steps, timestep)?;
     let every = options.every.max(1);
     if (steps / every).saturating_mul(programs.probes.len() + 1) > MAX_CELLS {
-        return Err(RunError(format!(
+        return Err(RunError::new(format!(
             "{steps} steps make the table too large; sample less often with --every"
         )));
     }
@@ -161,7 +186,7 @@ pub(crate) fn begin<'p>(
     // The inputs of the traces are recorded in columns of numbers, which may be much more than the traces.
     let (_, width) = Samples::new(programs, 0).columns();
     if (steps / every).saturating_mul(width) > 4 * MAX_CELLS {
-        return Err(RunError(format!(
+        return Err(RunError::new(format!(
             "{steps} steps of {width} numbers for the traces are too many; sample less often with --every"
         )));
     }
@@ -187,7 +212,7 @@ pub(crate) fn take(samples: &mut Samples<'_>, session: &mut Session<'_>) -> Cont
 pub(crate) fn finish(started: StartedRun<'_>, made: usize) -> Result<Table, RunError> {
     let StartedRun { session, samples, timestep, .. } = started;
     if samples.text() > MAX_TEXT {
-        return Err(RunError(format!(
+        return Err(RunError::new(format!(
             "the texts of the readouts exceed {} MB after {made} steps; display numbers or short texts, or sample less often with --every",
             MAX_TEXT >> 20
         )));

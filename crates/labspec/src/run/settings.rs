@@ -4,7 +4,7 @@
 use super::{RunError, Session};
 use crate::bind::{ControlProgram, Programs, scalar};
 use crate::printable::printable;
-use crate::spec::{Choice, Control, ControlKind, Lab};
+use crate::spec::{Choice, Control, ControlKind, Lab, SweepAxis, SweepValue};
 use labspec_expr::Value;
 use labspec_finding::order;
 
@@ -43,7 +43,7 @@ pub fn chosen(
     match (programs.control(label), lab.control(label)) {
         (Some((i, ControlProgram::Change(..))), Some(control)) => Ok((i, value(control, given)?)),
         (Some(_), Some(_)) => {
-            Err(RunError(format!("\"{label}\" is a button: press it instead of setting it")))
+            Err(RunError::new(format!("\"{label}\" is a button: press it instead of setting it")))
         }
         _ => Err(unknown_control(label, programs)),
     }
@@ -58,7 +58,7 @@ pub fn value(control: &Control, given: &Value) -> Result<Value, RunError> {
     let label = &control.label.value;
     match &control.kind {
         ControlKind::Button { .. } => {
-            Err(RunError(format!("\"{label}\" is a button: press it instead of setting it")))
+            Err(RunError::new(format!("\"{label}\" is a button: press it instead of setting it")))
         }
         ControlKind::Select { options, .. } => option(label, options, given),
         ControlKind::Slider { min, max, value, .. } => match given {
@@ -66,13 +66,28 @@ pub fn value(control: &Control, given: &Value) -> Result<Value, RunError> {
                 let grid = Grid { min: min.value, max: max.value, step: control.step().unwrap_or(0.0) };
                 grid.holds(label, *x, value.value).map(|()| given.clone())
             }
-            other => Err(RunError(format!(
+            other => Err(RunError::new(format!(
                 "\"{label}\" is a slider: it needs a number from {} to {}, not {}",
                 number(min.value),
                 number(max.value),
                 describe_value(other)
-            ))),
+            ))
+            .help(format!("write a number, without quotes: {}", number_in(other).unwrap_or(min.value)))),
         },
+    }
+}
+
+/// The value of a swept quantity in a run. A number that was drawn at random is rounded to the steps of a slider.
+pub fn swept_value(control: Option<&Control>, axis: &SweepAxis, value: &SweepValue) -> Value {
+    match (value, control.map(|control| (&control.kind, control.step()))) {
+        (SweepValue::Number(x), Some((ControlKind::Slider { min, max, .. }, Some(step))))
+            if axis.drawn && step > 0.0 =>
+        {
+            let nearest = min.value + ((x - min.value) / step).round() * step;
+            Value::Number(if (min.value..=max.value).contains(x) { nearest.min(max.value) } else { *x })
+        }
+        (SweepValue::Number(x), _) => Value::Number(*x),
+        (SweepValue::Text(text), _) => Value::from(text.as_str()),
     }
 }
 
@@ -102,12 +117,14 @@ pub fn presses(programs: &Programs, press: &[(String, f64)]) -> Result<Vec<(usiz
         match programs.control(label) {
             Some((i, ControlProgram::Press(_))) => list.push((i, *time)),
             Some(_) => {
-                return Err(RunError(format!("\"{label}\" is not a button: set it instead of pressing it")));
+                return Err(RunError::new(format!(
+                    "\"{label}\" is not a button: set it instead of pressing it"
+                )));
             }
             None => return Err(unknown_control(label, programs)),
         }
         if !(time.is_finite() && *time >= 0.0) {
-            return Err(RunError(format!(
+            return Err(RunError::new(format!(
                 "\"{label}\" cannot be pressed at {time} s, because a run begins at 0 s; use a later time"
             )));
         }
@@ -131,13 +148,13 @@ pub fn presses_within(
     let late = presses.iter().find(|(_, time)| *time > last + ON_GRID * timestep);
     let Some((button, time)) = late else { return Ok(()) };
     let label = programs.controls.get(*button).map_or("", |(label, _)| label);
-    Err(RunError(format!(
-        "\"{label}\" would be pressed at {} s, but the run ends at {} s and its last step begins at {} s: press it \
-         earlier, or make the run longer",
+    Err(RunError::new(format!(
+        "\"{label}\" would be pressed at {} s, but the run ends at {} s and its last step begins at {} s",
         number(*time),
         number(end),
         number(last)
-    )))
+    ))
+    .help(format!("press it at {} s or earlier, or make the run longer", number(last))))
 }
 
 fn option(label: &str, options: &[Choice], given: &Value) -> Result<Value, RunError> {
@@ -158,7 +175,7 @@ fn option(label: &str, options: &[Choice], given: &Value) -> Result<Value, RunEr
     if options.len() > MOST_LISTED {
         list.push(format!("and {} more", options.len() - MOST_LISTED));
     }
-    Err(RunError(format!(
+    Err(RunError::new(format!(
         "{} is not an option of \"{label}\"; its options are {}",
         describe_value(given),
         list.join(", ")
@@ -184,11 +201,15 @@ impl Grid {
             return Ok(());
         }
         if !(min..=max).contains(&x) {
-            return Err(RunError(format!(
+            return Err(RunError::new(format!(
                 "\"{label}\" goes from {} to {}: {} cannot be chosen",
                 number(min),
                 number(max),
                 number(x)
+            ))
+            .help(format!(
+                "set it to {}, the nearest value, or change the range of the slider",
+                number(if x < min { min } else { max })
             )));
         }
         // An invalid step has a separate finding.
@@ -199,14 +220,23 @@ impl Grid {
             return Ok(());
         }
         let [below, above] = [steps.floor(), steps.ceil()].map(|k| (min + k * step).min(max));
-        Err(RunError(format!(
+        Err(RunError::new(format!(
             "\"{label}\" cannot be set to {}: it moves in steps of {} from {}; the nearest values are {} and {}",
             number(x),
             number(step),
             number(min),
             number(below),
             number(above)
-        )))
+        ))
+        .help(format!("set it to {} or {}, or change the `step` of the slider", number(below), number(above))))
+    }
+}
+
+/// The number that a text contains.
+fn number_in(value: &Value) -> Option<f64> {
+    match value {
+        Value::String(text) => text.trim().parse().ok(),
+        _ => None,
     }
 }
 
@@ -243,7 +273,7 @@ pub fn unknown_control(label: &str, programs: &Programs) -> RunError {
     };
     let hint = crate::json::nearest(label, labels)
         .map_or(String::new(), |l| format!("; did you mean \"{}\"?", printable(l)));
-    RunError(format!("the lab has no control \"{}\"{hint} ({available})", printable(label)))
+    RunError::new(format!("the lab has no control \"{}\"{hint} ({available})", printable(label)))
 }
 
 #[cfg(test)]
@@ -260,7 +290,7 @@ mod tests {
     }
 
     fn outcome(lab: &Lab, given: Value) -> String {
-        value(&lab.controls[0], &given).map_or_else(|e| e.0, |v| format!("ok {v}"))
+        value(&lab.controls[0], &given).map_or_else(|e| e.message, |v| format!("ok {v}"))
     }
 
     const INTEGRATOR: &str = r#"{"type": "select", "label": "integrator", "set": "model.opt.integrator",

@@ -2,7 +2,7 @@
 
 use super::fields::Fields;
 use super::format::HASH;
-use super::problem::Expected;
+use super::problem::{Expected, Mistake};
 use super::read::{whole, wrong_key};
 use crate::json::{Json, Node, Number};
 use crate::source::Text;
@@ -133,8 +133,8 @@ impl AnswerKey {
     }
 }
 
-/// Reads `answer` or `hash`. A question without both lacks `answer`.
-pub(super) fn read_key(fields: &mut Fields<'_, '_>) -> Option<AnswerKey> {
+/// Reads `answer` or `hash`. A question without both lacks `answer`. `options` are those of the question.
+pub(super) fn read_key(fields: &mut Fields<'_, '_>, options: &[Text]) -> Option<AnswerKey> {
     let several = fields.takes_list("answer");
     let (answer, hash) = (fields.node("answer"), fields.node("hash"));
     let Some(answer) = answer else {
@@ -154,6 +154,18 @@ pub(super) fn read_key(fields: &mut Fields<'_, '_>) -> Option<AnswerKey> {
     };
     if let Some(node) = hash {
         let _ = read_hash(node, fields);
+    }
+    let letter = |text: &Text| match text.value.trim().as_bytes() {
+        [letter @ b'A'..=b'Z'] => Some(usize::from(letter - b'A')).filter(|index| *index < options.len()),
+        _ => None,
+    };
+    let named =
+        |text: &Text| options.iter().position(|option| option.value == text.value).or_else(|| letter(text));
+    if let Json::Text(text) = &answer.json
+        && let Some(index) = named(text).filter(|_| !several)
+    {
+        fields.problems.push(Mistake::AnswerText(index).at(answer.span.clone()));
+        return None;
     }
     let value = read_answer(answer, several, fields)?;
     Some(AnswerKey { span: answer.span.clone(), value, hash_beside: hash.map(|node| node.span.clone()) })

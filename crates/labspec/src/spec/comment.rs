@@ -1,18 +1,16 @@
 //! Comments for labspec in the text of a lesson, each about the following block: `<!-- labspec allow … -->`, `<!-- labspec
-//! verify {…} -->`.
+//! verify {…} -->`. `<!-- labspec define NAME {…} -->` is about no block: it names runs and measures for `use`.
 
 use super::lab::Verify;
-use super::problem::Problem;
-use super::read_lab::read_verify;
-use crate::json;
-use crate::markdown::{self, MAX_BLOCKS, Scan};
-use crate::source::{SourceFile, SourceMap};
+use crate::markdown::Scan;
+use crate::source::SourceFile;
 use std::ops::Range;
 
 const OPENS: &str = "<!--";
 const CLOSES: &str = "-->";
 const OURS: &str = "labspec";
-const CLAIM: &str = "verify";
+pub(super) const CLAIM: &str = "verify";
+pub(super) const DEFINITION: &str = "define";
 
 /// A comment.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -33,6 +31,17 @@ pub struct Remark {
     /// Bytes of the block to which it applies.
     pub over: Range<usize>,
     /// The claims.
+    pub verify: Verify,
+}
+
+/// Runs, measures and searches with a name, which `verify` objects use.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Definition {
+    /// Its name.
+    pub name: String,
+    /// Bytes of the comment.
+    pub span: Range<usize>,
+    /// Its runs, measures and searches.
     pub verify: Verify,
 }
 
@@ -65,7 +74,7 @@ fn following(file: &SourceFile, scan: &Scan, from: usize, paragraph: &mut Range<
 }
 
 /// The bytes of every labspec comment with this keyword, and of the text after the keyword.
-fn ours(text: &str, scan: &Scan, word: &str) -> Vec<(Range<usize>, Range<usize>)> {
+pub(super) fn ours(text: &str, scan: &Scan, word: &str) -> Vec<(Range<usize>, Range<usize>)> {
     let mut all = Vec::new();
     for html in &scan.html {
         let mut from = html.start;
@@ -81,6 +90,16 @@ fn ours(text: &str, scan: &Scan, word: &str) -> Vec<(Range<usize>, Range<usize>)
     all
 }
 
+/// The bytes of the comments with claims and definitions, and of the JSON in them.
+pub(crate) fn claims_in_comments(text: &str, scan: &Scan) -> Vec<(Range<usize>, Range<usize>)> {
+    let json = |inside: Range<usize>| {
+        let open = text.get(inside.clone()).and_then(|t| t.find('{')).unwrap_or(0);
+        inside.start + open..inside.end
+    };
+    let all = [CLAIM, DEFINITION].into_iter().flat_map(|word| ours(text, scan, word));
+    all.map(|(comment, inside)| (comment, json(inside))).collect()
+}
+
 /// The bytes of the claim in a comment that contains a byte of the text.
 pub(super) fn claim_at(text: &str, scan: &Scan, byte: usize) -> Option<Range<usize>> {
     let mut all = ours(text, scan, CLAIM).into_iter().map(|(_, inside)| inside);
@@ -94,28 +113,4 @@ fn behind(text: &str, inside: Range<usize>, word: &str) -> Option<Range<usize>> 
         rest = rest.trim_start().strip_prefix(part)?;
     }
     rest.starts_with(|c: char| c.is_whitespace() || c == '{').then(|| inside.end - rest.len()..inside.end)
-}
-
-/// Reads the claims in comments. Errors are added to `problems`, the comments that a page cannot read to `broken`.
-pub(super) fn read_remarks(
-    file: &SourceFile,
-    scan: &Scan,
-    broken: &mut Vec<Range<usize>>,
-    problems: &mut Vec<Problem>,
-) -> Vec<Remark> {
-    let mut all = Vec::new();
-    for Comment { span, inside, over } in comments(file, scan, CLAIM) {
-        if all.len() >= MAX_BLOCKS {
-            problems.push(Problem::Fence(markdown::Problem::TooManyBlocks(span.start)));
-            break;
-        }
-        let parsed = json::parse(file.slice(inside.clone()), &SourceMap::verbatim(inside.clone()));
-        if parsed.broken {
-            broken.push(span.clone());
-        }
-        problems.extend(parsed.problems.into_iter().map(Problem::Json));
-        let found = parsed.node.and_then(|node| read_verify(&node, problems));
-        all.extend(found.map(|verify| Remark { span, over, verify }));
-    }
-    all
 }

@@ -117,6 +117,12 @@ pub(super) fn read(node: &Node, problems: &mut Vec<Problem>) -> Option<Control> 
     let mut fields = Fields::open_one(node, &CONTROL, problems)?;
     let kind = fields.text("type");
     let control = match kind.as_ref().map_or("slider", Text::as_str) {
+        // Only a button has `run`.
+        "slider" if kind.is_none() && has_key(node, "run") && !has_key(node, "min") => {
+            let button = button(&mut fields);
+            fields.missing("type", "without it, the page shows a slider", false);
+            button
+        }
         "slider" => slider(&mut fields),
         "select" => select(&mut fields),
         "button" => button(&mut fields),
@@ -130,6 +136,10 @@ pub(super) fn read(node: &Node, problems: &mut Vec<Problem>) -> Option<Control> 
     fields.finish();
     let (label, kind) = control?;
     Some(Control { span: node.span.clone(), label, kind })
+}
+
+fn has_key(node: &Node, key: &str) -> bool {
+    matches!(&node.json, Json::Object(members) if members.iter().any(|member| member.key.value == key))
 }
 
 fn slider(fields: &mut Fields<'_, '_>) -> Option<(Text, ControlKind)> {
@@ -154,14 +164,19 @@ fn select(fields: &mut Fields<'_, '_>) -> Option<(Text, ControlKind)> {
         fields.problems.push(mistake);
     }
     // A broken option is already reported; without it, the start value cannot be checked.
-    let options = options.map(|nodes| nodes.iter().map(|n| choice(n, fields.problems)).collect::<Vec<_>>());
+    let mut reported = false;
+    let options = options.map(|nodes| {
+        let numbered = nodes.iter().enumerate();
+        numbered.map(|(i, n)| choice(n, i, &mut reported, fields.problems)).collect::<Vec<_>>()
+    });
     let options: Option<Vec<Choice>> = options.and_then(|all| all.into_iter().collect());
     let value = fields.scalar("value");
     let action = action(fields);
     Some((label?, ControlKind::Select { options: options?, value: value?, action }))
 }
 
-fn choice(node: &Node, problems: &mut Vec<Problem>) -> Option<Choice> {
+/// Reads an option. The first one that is not a pair is reported for all of them.
+fn choice(node: &Node, index: usize, reported: &mut bool, problems: &mut Vec<Problem>) -> Option<Choice> {
     if node.is_broken() {
         return None;
     }
@@ -172,7 +187,13 @@ fn choice(node: &Node, problems: &mut Vec<Problem>) -> Option<Choice> {
         let value = read::scalar(value, "the value of an option", problems);
         return Some(Choice { text: text?, value: value? });
     }
-    problems.push(Mistake::NoChoice.at(node.span.clone()));
+    let text = match &node.json {
+        Json::Text(text) => Some(text.value.clone()),
+        _ => None,
+    };
+    if !std::mem::replace(reported, true) {
+        problems.push(Mistake::NoChoice { text, index }.at(node.span.clone()));
+    }
     None
 }
 

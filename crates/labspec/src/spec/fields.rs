@@ -118,7 +118,8 @@ impl<'n, 'f> Fields<'n, 'f> {
             return;
         }
         let open = self.span.start..self.span.end.min(self.span.start + 1);
-        let mistake = Mistake::MissingKey { object: self.what, key, why, advised };
+        let example = self.key(key).map_or("", |k| k.example);
+        let mistake = Mistake::MissingKey { object: self.what, key, why, advised, example };
         self.missing.push((key, mistake.at(open)));
     }
 

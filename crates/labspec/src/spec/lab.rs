@@ -8,6 +8,7 @@ use super::format::{CAMERA, LAB};
 use super::plot::{Plot, Readout};
 use crate::json::{Number, Scalar};
 use crate::source::Text;
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// A lab: a scene, the controls for the student, and the displayed values.
@@ -84,9 +85,36 @@ pub struct Comparison {
     pub control: usize,
 }
 
+/// Whether a run breaks, as the lesson says.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub enum BreakExpectation {
+    /// It must go well.
+    #[default]
+    None,
+    /// It must break.
+    Breaks,
+    /// It may break: both results are as the lesson says.
+    MayBreak,
+}
+
+impl BreakExpectation {
+    /// Whether a break is a mistake.
+    pub fn forbids(self) -> bool {
+        self == BreakExpectation::None
+    }
+
+    /// Whether a run that does not break is a mistake.
+    pub fn requires(self) -> bool {
+        self == BreakExpectation::Breaks
+    }
+}
+
 /// The expected result of the runs of a lab, if it is not that they succeed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Expect {
+    /// `"may break"`: some settings of its controls break the simulation, and the lesson shows this on purpose.
+    MayBreak,
     /// `"breaks"`: the simulation produces an invalid number or gains energy without a source, and the lesson shows this on
     /// purpose. With the byte range of the word.
     Breaks(Range<usize>),
@@ -268,7 +296,7 @@ pub struct Verify {
     /// The lab that runs; `None` means the `sim` of the question, or the lab that contains this object.
     pub lab: Option<VerifyLab>,
     /// The lab or the question whose runs and measures are used as well.
-    pub uses: Option<(Text, LabAddress)>,
+    pub uses: Option<(Text, UsedObject)>,
     /// The runs. If empty, there is one run of the lab as loaded.
     pub runs: Vec<Run>,
     /// Measures: name and expression, evaluated in every run.
@@ -304,6 +332,15 @@ pub enum VerifyLab {
     Broken,
 }
 
+/// The object whose runs and measures a `verify` object uses.
+#[derive(Clone, Debug, PartialEq)]
+pub enum UsedObject {
+    /// That of a lab or a question: `#1`, `#quiz-id.2`.
+    Owner(LabAddress),
+    /// The one of a comment `labspec define`, by its name.
+    Defined(String),
+}
+
 /// A named run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Run {
@@ -331,6 +368,6 @@ pub struct Run {
     pub stop: Option<Text>,
     /// A parameter with several values; each gives a run.
     pub sweep: Option<Sweep>,
-    /// Whether the lesson says that this run breaks; then it must break.
-    pub breaks: bool,
+    /// Whether it breaks, as the lesson says.
+    pub expect: BreakExpectation,
 }

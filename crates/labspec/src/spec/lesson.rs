@@ -1,7 +1,7 @@
 //! A lesson: the contents of its blocks, in order, with the labs and the claims.
 
 use super::address::LabAddress;
-use super::comment::Remark;
+use super::comment::{Definition, Remark};
 use super::lab::{Lab, Verify, VerifyLab};
 use super::problem::Problem;
 use super::quiz::Quiz;
@@ -10,6 +10,7 @@ use crate::markdown::Scan;
 use crate::source::{SourceFile, Sources, Text};
 use std::ops::Range;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// A lesson or a standalone JSON file, with all problems in its structure.
 #[derive(Clone, Debug)]
@@ -29,6 +30,8 @@ pub struct Lesson {
     pub scan: Scan,
     /// Claims about blocks of the text, in comments before these blocks.
     pub remarks: Vec<Remark>,
+    /// Runs and measures with a name, which `verify` objects use.
+    pub definitions: Vec<Definition>,
     /// The `verify` objects with a `use`, merged with the objects that they use.
     pub wholes: Vec<Verify>,
     /// Labs of other lessons that this one refers to. The code that has access to the files reads them.
@@ -39,6 +42,8 @@ pub struct Lesson {
     pub findings: Vec<Finding>,
     /// The stored snapshot of the results of its labs, or the reason that it cannot be read; `None` if there is none.
     pub snapshot: Option<Result<SourceFile, String>>,
+    /// The files with values that its claims refer to.
+    pub data: Vec<DataFile>,
     /// The path of the file, and the sources of its related files; `None` until these files were searched for.
     pub place: Option<(PathBuf, Sources)>,
 }
@@ -67,6 +72,15 @@ pub struct Other {
     pub text: String,
     /// The lab, or the reason that there is none.
     pub lab: Result<Lab, String>,
+}
+
+/// A file with values that a claim refers to.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DataFile {
+    /// Its path.
+    pub path: PathBuf,
+    /// Its text, or the reason that it cannot be read.
+    pub text: Result<Arc<str>, String>,
 }
 
 /// A block of another widget.

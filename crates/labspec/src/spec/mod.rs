@@ -22,23 +22,31 @@ mod problem;
 mod quiz;
 mod read;
 mod read_claim;
+mod read_comments;
 mod read_lab;
 mod read_lesson;
 mod shared;
+mod sources;
 mod verify;
 
 pub use address::LabAddress;
 pub use allow::Allowance;
 pub use answer_key::{AnswerHash, AnswerKey, KeyValue};
-pub use claim::{Change, Column, Exact, Find, MOST_SWEPT, Said, Stands, Sweep};
-pub use comment::Remark;
+pub use claim::{
+    Change, Column, Exact, Find, MOST_AXES, MOST_SWEPT, Said, Stands, Sweep, SweepAxis, SweepValue,
+};
+pub(crate) use comment::claims_in_comments;
+pub use comment::{Definition, Remark};
 pub use control::{Action, Choice, Control, ControlKind};
 pub use integrators::{ENERGY_DRIFT, INTEGRATOR};
 pub use kind::{FileKind, kind_of};
-pub use lab::{Camera, CodeForm, Comparison, Expect, Lab, ModelSource, Run, Verify, VerifyLab};
-pub use lesson::{LabEntry, Lesson, Other, Widget};
+pub use lab::{
+    BreakExpectation, Camera, CodeForm, Comparison, Expect, Lab, ModelSource, Run, UsedObject, Verify,
+    VerifyLab,
+};
+pub use lesson::{DataFile, LabEntry, Lesson, Other, Widget};
 pub use plot::{Plot, Readout, RefLine, Trace};
 pub use problem::{Expected, Meant, Misfit, Mistake, Problem};
 pub use quiz::{ChoiceStyle, Question, QuestionKind, Quiz};
 pub(crate) use read_lesson::read_lab_json;
-pub use read_lesson::{read_lesson, read_other};
+pub use read_lesson::{read_lesson, read_lesson_in, read_other};

@@ -65,13 +65,20 @@ pub enum Mistake {
         why: &'static str,
         /// Whether it is only recommended.
         advised: bool,
+        /// A possible value, as JSON; empty if the format has none.
+        example: &'static str,
     },
     /// An unknown type of control.
     ControlType(String),
     /// An unknown kind of question.
     QuestionKind(String),
     /// An option that is not a pair of text and value.
-    NoChoice,
+    NoChoice {
+        /// Its text, if it is one.
+        text: Option<String>,
+        /// Its index.
+        index: usize,
+    },
     /// A select without options.
     NothingOffered,
     /// A plot without traces.
@@ -92,20 +99,41 @@ pub enum Mistake {
     NoSweep,
     /// A column with neither `by` nor `row`, or with both.
     NoRows,
+    /// An entry of a table without a column, or with several forms of one.
+    NoColumn,
     /// A search with neither `largest` nor `smallest`, or with both.
     FindsNothing,
     /// A search whose first value is not less than its last value.
     FindsBackwards,
     /// A sweep with too few or too many values.
     SweptValues(usize),
+    /// A name of runs that lists more or fewer names than its sweep has runs.
+    RunNames {
+        /// The number of names.
+        names: usize,
+        /// The number of runs of the sweep.
+        members: usize,
+    },
+    /// A name in a list of runs that another run has.
+    RunTwice(String),
+    /// A file or a listing of a claim that cannot be read: its name, and the reason.
+    NoSource(String, String),
     /// A press that is not a pair of label and time.
     NoPress,
     /// A range that is not a pair of a smaller and a larger number.
     NoRange,
     /// A quote that is not a pair of quote and expression.
     NoQuote,
+    /// A list with one quote and its expression, in place of a list of such lists.
+    QuoteWithoutList([String; 2]),
+    /// An answer that is the text or the letter of an option; its index.
+    AnswerText(usize),
     /// A `verify` object without any comparison.
     ClaimsNothing,
+    /// A definition has claims.
+    ClaimsInDefinition,
+    /// A definition has no name, or the name of another one.
+    NoDefinitionName(String),
     /// A lab fence that contains a quiz; with the correct opening line.
     HoldsQuiz(String),
     /// A quiz fence that contains a lab; with the correct opening line.

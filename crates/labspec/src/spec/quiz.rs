@@ -224,7 +224,10 @@ fn question(node: &Node, problems: &mut Vec<Problem>) -> Option<Question> {
         "multiple" => choice(&mut fields, &MULTIPLE, ChoiceStyle::Multiple),
         "truefalse" => {
             fields.narrow(&TRUEFALSE);
-            Some(QuestionKind::TrueFalse { key: read_key(&mut fields), attempts: fields.whole("attempts") })
+            Some(QuestionKind::TrueFalse {
+                key: read_key(&mut fields, &[]),
+                attempts: fields.whole("attempts"),
+            })
         }
         "numeric" => Some(numeric(&mut fields)),
         word @ ("open" | "code") => {
@@ -251,7 +254,7 @@ fn choice(fields: &mut Fields<'_, '_>, object: &'static Object, style: ChoiceSty
     let options: Option<Vec<Option<Text>>> =
         options.map(|nodes| nodes.iter().map(|n| read::text(n, "an option", fields.problems)).collect());
     let options: Option<Vec<Text>> = options.and_then(|all| all.into_iter().collect());
-    let key = read_key(fields);
+    let key = read_key(fields, options.as_deref().unwrap_or_default());
     let (mut attempts, mut sim) = (None, None);
     if style == ChoiceStyle::Predict {
         sim = fields.node("sim").and_then(|n| read_lab(n, fields.problems)).map(Box::new);

@@ -1,8 +1,11 @@
 //! Reads the parts of a `verify` object that contain no lab.
 
-use super::claim::{Change, Column, Exact, Find, MOST_SWEPT, Said, Stands, Sweep};
+use super::claim::{
+    Change, Column, Exact, Find, MOST_AXES, MOST_SWEPT, Said, Stands, Sweep, SweepAxis, SweepValue,
+};
 use super::fields::Fields;
 use super::format::{CLOSED_FORM, COLUMN, FIND, SPAN};
+use super::lab::BreakExpectation;
 use super::problem::{Mistake, Problem};
 use super::read;
 use crate::json::read::shorten;
@@ -26,35 +29,66 @@ pub(super) fn read_change(member: &Member, problems: &mut Vec<Problem>) -> Optio
     Some(Change { path: member.key.clone(), value })
 }
 
-/// The parameter of a sweep and its values: a list, or a number of equidistant values between two ends.
+/// The axes of a sweep.
 pub(super) fn read_sweep(node: &Node, problems: &mut Vec<Problem>) -> Option<Sweep> {
-    let [member] = node.members() else {
+    let members = node.members();
+    if !(1..=MOST_AXES).contains(&members.len()) {
         if !node.is_broken() {
             problems.push(Mistake::NoSweep.at(node.span.clone()));
         }
         return None;
-    };
-    let what = member.key.clone();
-    let values: Vec<f64> = match &member.value.json {
+    }
+    let axes: Vec<SweepAxis> =
+        members.iter().map(|member| read_axis(member, problems)).collect::<Option<_>>()?;
+    let sweep = Sweep { axes };
+    if sweep.count() > MOST_SWEPT {
+        problems.push(Mistake::SweptValues(sweep.count()).at(node.span.clone()));
+        return None;
+    }
+    Some(sweep)
+}
+
+/// The parameter of a sweep and its values: a list, or a number of values between two ends, equidistant or drawn at random.
+fn read_axis(member: &Member, problems: &mut Vec<Problem>) -> Option<SweepAxis> {
+    let mut drawn = false;
+    let values: Vec<SweepValue> = match &member.value.json {
         Json::Array(items) => {
-            let numbers =
-                items.iter().map(|n| read::number(n, "a value of a sweep", problems).map(|n| n.value));
-            numbers.collect::<Option<_>>()?
+            let value = |n: &Node, problems: &mut Vec<Problem>| match &n.json {
+                Json::Text(text) => Some(SweepValue::Text(text.value.clone())),
+                _ => Some(SweepValue::Number(read::number(n, "a value of a sweep", problems)?.value)),
+            };
+            items.iter().map(|n| value(n, problems)).collect::<Option<_>>()?
         }
         _ => {
             let mut fields = Fields::open(&member.value, &SPAN, problems)?;
-            let [from, to, count] = [fields.number("from"), fields.number("to"), fields.whole("count")];
+            let [from, to] = ["from", "to"].map(|key| fields.number(key));
+            let [count, seed] = ["count", "seed"].map(|key| fields.whole(key));
             fields.finish();
             let ([from, to], count) = ([from?.value, to?.value], count?.value.clamp(0.0, 1e6) as usize);
             let part = |i: usize| i as f64 / count.saturating_sub(1).max(1) as f64;
-            (0..count.min(MOST_SWEPT + 1)).map(|i| from + (to - from) * part(i)).collect()
+            drawn = seed.is_some();
+            let mut draw = seed.map(|seed| random_parts(seed.value));
+            let parts = (0..count.min(MOST_SWEPT + 1)).map(|i| draw.as_mut().map_or(part(i), |draw| draw()));
+            parts.map(|part| SweepValue::Number(from + (to - from) * part)).collect()
         }
     };
     if !(2..=MOST_SWEPT).contains(&values.len()) {
         problems.push(Mistake::SweptValues(values.len()).at(member.value.span.clone()));
         return None;
     }
-    Some(Sweep { what, values })
+    Some(SweepAxis { what: member.key.clone(), values, drawn })
+}
+
+/// A generator of numbers from 0 to 1, the same for every seed everywhere (SplitMix64: Steele, Lea, Flood 2014).
+fn random_parts(seed: f64) -> impl FnMut() -> f64 {
+    let mut state = seed.to_bits();
+    move || {
+        state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = state;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
 }
 
 /// The range of a slider over which the answer must hold.
@@ -105,11 +139,15 @@ pub(super) fn read_find(member: &Member, problems: &mut Vec<Problem>) -> Option<
 }
 
 /// Whether the run is expected to break.
-pub(super) fn read_breaks(text: &Text, problems: &mut Vec<Problem>) -> bool {
-    if text.value != "breaks" {
-        problems.push(Mistake::RunExpects(text.value.clone()).at(text.span()));
+pub(super) fn read_expectation(text: &Text, problems: &mut Vec<Problem>) -> BreakExpectation {
+    match text.as_str() {
+        "breaks" => BreakExpectation::Breaks,
+        "may break" => BreakExpectation::MayBreak,
+        _ => {
+            problems.push(Mistake::RunExpects(text.value.clone()).at(text.span()));
+            BreakExpectation::None
+        }
     }
-    text.value == "breaks"
 }
 
 /// The closed form of a trace: an expression, or an object with a tolerance.
@@ -141,7 +179,18 @@ pub(super) fn read_press(node: &Node, problems: &mut Vec<Problem>) -> Option<(Te
     None
 }
 
-pub(super) fn read_says(node: &Node, problems: &mut Vec<Problem>) -> Option<Said> {
+/// Reads the entries of `says`. A single entry that is not in a list of its own is one mistake.
+pub(super) fn read_all_says(nodes: &[Node], problems: &mut Vec<Problem>) -> Vec<Said> {
+    if let [Node { json: Json::Text(quote), span }, Node { json: Json::Text(expression), span: last }] = nodes
+    {
+        let texts = [quote.value.clone(), expression.value.clone()];
+        problems.push(Mistake::QuoteWithoutList(texts).at(span.start..last.end));
+        return Vec::new();
+    }
+    nodes.iter().filter_map(|node| read_says(node, problems)).collect()
+}
+
+fn read_says(node: &Node, problems: &mut Vec<Problem>) -> Option<Said> {
     if node.is_broken() {
         return None;
     }
@@ -187,20 +236,47 @@ fn read_cells(node: &Node, problems: &mut Vec<Problem>) -> Option<Stands> {
     }
 }
 
-/// A column of a table, or one of its cells.
-pub(super) fn read_column(node: &Node, problems: &mut Vec<Problem>) -> Option<Column> {
+/// Columns of a table, or cells of a row: those of one entry.
+pub(super) fn read_columns(node: &Node, problems: &mut Vec<Problem>) -> Option<Vec<Column>> {
     let mut fields = Fields::open(node, &COLUMN, problems)?;
     let f = &mut fields;
     let (column, row) = (f.text("column"), f.text("row"));
-    let is = f.node("is").and_then(|n| read_cells(n, f.problems));
+    let columns = f.map("columns");
+    let is = f.node("is");
     let by = f.node("by").and_then(|n| read_row_keys(n, f.problems));
+    let of = |column: Text, cell: Option<usize>, is: Stands| {
+        let (by, row) = (by.clone(), row.clone());
+        Column { column, cell, by, row, is }
+    };
+    let mut all = Vec::new();
+    match (&column, columns, is.map(|n| &n.json)) {
+        (Some(column), [], Some(_)) => {
+            all.extend(is.and_then(|n| read_cells(n, f.problems)).map(|is| of(column.clone(), None, is)));
+        }
+        (None, [], Some(Json::Array(cells))) if row.is_some() => {
+            for (i, cell) in cells.iter().enumerate().filter(|(_, cell)| cell.json != Json::Null) {
+                all.extend(
+                    read_cells(cell, f.problems).zip(row.clone()).map(|(is, row)| of(row, Some(i + 1), is)),
+                );
+            }
+        }
+        (None, [_, ..], None) => {
+            for member in columns {
+                all.extend(read_cells(&member.value, f.problems).map(|is| of(member.key.clone(), None, is)));
+            }
+        }
+        _ => {
+            let mistake = Mistake::NoColumn.at(f.span());
+            f.problems.push(mistake);
+        }
+    }
     if by.is_some() == row.is_some() {
         let mistake = Mistake::NoRows.at(f.span());
         f.problems.push(mistake);
+        all.clear();
     }
-    let exclusive = by.is_some() != row.is_some();
     fields.finish();
-    Some(Column { column: column?, by, row, is: is? }).filter(|_| exclusive)
+    Some(all)
 }
 
 pub(super) fn read_measures(fields: &mut Fields<'_, '_>, key: &'static str) -> Vec<(Text, Text)> {

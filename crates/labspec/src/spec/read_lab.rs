@@ -4,15 +4,17 @@ use super::address::LabAddress;
 use super::fields::Fields;
 use super::format::{CAMERA, INTEGRATORS, LAB, Object, RUN, VERIFY};
 use super::integrators::{add_comparison, read_comparison};
-use super::lab::{Camera, Expect, Lab, Run, Verify, VerifyLab};
+use super::lab::{BreakExpectation, Camera, Expect, Lab, Run, UsedObject, Verify, VerifyLab};
 use super::problem::{Mistake, Problem};
 use super::read_claim::{
-    read_breaks, read_change, read_column, read_exact, read_find, read_measures, read_over, read_press,
-    read_says, read_sweep,
+    read_all_says, read_change, read_columns, read_exact, read_expectation, read_find, read_measures,
+    read_over, read_press, read_sweep,
 };
 use super::{allow, control, plot, read};
 use crate::json::{Json, Member, Node};
-use crate::source::Text;
+use crate::source::{SourceMap, Text};
+use labspec_finding::order;
+use std::collections::BTreeSet;
 
 /// Reads a lab.
 pub(super) fn read_lab(node: &Node, problems: &mut Vec<Problem>) -> Option<Lab> {
@@ -78,11 +80,14 @@ fn no_list_of_controls(node: &Node) -> bool {
 }
 
 fn read_expect(text: &Text, problems: &mut Vec<Problem>) -> Option<Expect> {
-    if text.as_str() == "breaks" {
-        return Some(Expect::Breaks(text.span()));
+    match text.as_str() {
+        "breaks" => Some(Expect::Breaks(text.span())),
+        "may break" => Some(Expect::MayBreak),
+        _ => {
+            problems.push(Mistake::LabExpects(text.value.clone()).at(text.span()));
+            None
+        }
     }
-    problems.push(Mistake::LabExpects(text.value.clone()).at(text.span()));
-    None
 }
 
 fn read_camera(node: &Node, problems: &mut Vec<Problem>) -> Option<Camera> {
@@ -127,10 +132,24 @@ fn read_overlays(fields: &mut Fields<'_, '_>) -> Vec<(Text, bool)> {
 
 /// Reads a `verify` object.
 pub(super) fn read_verify(node: &Node, problems: &mut Vec<Problem>) -> Option<Verify> {
+    read_object(node, false, problems)
+}
+
+/// Reads the runs and measures of a definition, which other objects use.
+pub(super) fn read_definition(node: &Node, problems: &mut Vec<Problem>) -> Option<Verify> {
+    read_object(node, true, problems)
+}
+
+fn read_object(node: &Node, is_definition: bool, problems: &mut Vec<Problem>) -> Option<Verify> {
     let before = problems.len();
     let mut fields = Fields::open(node, &VERIFY, problems)?;
     let f = &mut fields;
-    if !["options", "value", "says", "table", "exact"].iter().any(|key| f.has(key)) {
+    let claims = ["options", "value", "says", "table", "exact"].iter().any(|key| f.has(key));
+    if claims && is_definition {
+        let mistake = Mistake::ClaimsInDefinition.at(f.span());
+        f.problems.push(mistake);
+    }
+    if !claims && !is_definition {
         let mistake = Mistake::ClaimsNothing.at(f.span());
         f.problems.push(mistake);
     }
@@ -138,15 +157,15 @@ pub(super) fn read_verify(node: &Node, problems: &mut Vec<Problem>) -> Option<Ve
         span: f.span(),
         lab: f.node("lab").map(|n| read_verify_lab(n, f.problems).unwrap_or(VerifyLab::Broken)),
         uses: f.text("use").and_then(|text| read_uses(text, f.problems)),
-        runs: f.map("runs").iter().filter_map(|m| read_run(m, f.problems)).collect(),
+        runs: read_runs(f.map("runs"), f.problems),
         measure: read_measures(f, "measure"),
         find: f.map("find").iter().filter_map(|m| read_find(m, f.problems)).collect(),
         options: f.list("options").iter().filter_map(|n| read::text(n, "a condition", f.problems)).collect(),
         over: f.map("over").iter().filter_map(|m| read_over(m, f.problems)).collect(),
         value: f.text("value"),
         wrong: f.list("wrong").iter().filter_map(|n| read::text(n, "a wrong value", f.problems)).collect(),
-        says: f.list("says").iter().filter_map(|n| read_says(n, f.problems)).collect(),
-        table: f.list("table").iter().filter_map(|n| read_column(n, f.problems)).collect(),
+        says: read_all_says(f.list("says"), f.problems),
+        table: f.list("table").iter().filter_map(|n| read_columns(n, f.problems)).flatten().collect(),
         exact: f.map("exact").iter().filter_map(|m| read_exact(m, f.problems)).collect(),
     };
     fields.finish();
@@ -181,12 +200,69 @@ fn read_verify_lab(node: &Node, problems: &mut Vec<Problem>) -> Option<VerifyLab
 }
 
 /// The object whose runs and measures are used.
-fn read_uses(text: Text, problems: &mut Vec<Problem>) -> Option<(Text, LabAddress)> {
-    let address = LabAddress::parse(&text.value);
-    if address.is_none() {
-        problems.push(Mistake::NoPlace(text.value.clone()).at(text.span()));
+fn read_uses(text: Text, problems: &mut Vec<Problem>) -> Option<(Text, UsedObject)> {
+    let used = match LabAddress::parse(&text.value) {
+        Some(address) => UsedObject::Owner(address),
+        None if !text.value.is_empty() && text.value.chars().all(is_name) => {
+            UsedObject::Defined(text.value.clone())
+        }
+        None => {
+            problems.push(Mistake::NoPlace(text.value.clone()).at(text.span()));
+            return None;
+        }
+    };
+    Some((text, used))
+}
+
+/// Whether a character can be part of the name of a definition.
+pub(super) fn is_name(c: char) -> bool {
+    c.is_alphanumeric() || matches!(c, '-' | '_')
+}
+
+/// Reads the runs of an object. A name with commas, `"light, heavy"`, lists a name for each run of its sweep.
+fn read_runs(members: &[Member], problems: &mut Vec<Problem>) -> Vec<Run> {
+    let mut all: Vec<Run> = Vec::new();
+    let mut listed = Vec::new();
+    for member in members {
+        let Some(run) = read_run(member, problems) else { continue };
+        let Some(sweep) = run.sweep.as_ref().filter(|_| run.name.value.contains(',')) else {
+            all.push(run);
+            continue;
+        };
+        let (names, members) = (run.name.value.split(',').count(), sweep.count());
+        if members != names {
+            problems.push(Mistake::RunNames { names, members }.at(run.name.span()));
+            continue;
+        }
+        let names = names_of_list(&run.name);
+        listed.extend(names.iter().map(|name| name.value.clone()));
+        let members = names.into_iter().enumerate();
+        all.extend(members.map(|(i, name)| Run { name, sweep: Some(sweep.member(i)), ..run.clone() }));
     }
-    Some((text, address?))
+    // Equal keys are reported as such; equal names in lists are no equal keys.
+    let listed = order::set(listed);
+    let mut read = BTreeSet::new();
+    for run in &all {
+        if !read.insert(&run.name.value) && listed.contains(&run.name.value) {
+            problems.push(Mistake::RunTwice(run.name.value.clone()).at(run.name.span()));
+        }
+    }
+    all
+}
+
+/// The names in a list that is separated by commas.
+fn names_of_list(list: &Text) -> Vec<Text> {
+    let mut start = 0;
+    let parts = list.value.split(',').map(|part| {
+        let name = part.trim();
+        let from = start + part.len() - part.trim_start().len();
+        start += part.len() + 1;
+        Text {
+            value: name.to_string(),
+            map: SourceMap::whole(name.len(), list.span_of(from..from + name.len())),
+        }
+    });
+    parts.collect()
 }
 
 fn read_run(member: &Member, problems: &mut Vec<Problem>) -> Option<Run> {
@@ -211,7 +287,7 @@ fn read_run(member: &Member, problems: &mut Vec<Problem>) -> Option<Run> {
         steps: f.whole("steps"),
         stop: f.text("stop"),
         sweep: f.node("sweep").and_then(|n| read_sweep(n, f.problems)),
-        breaks: f.text("expect").is_some_and(|t| read_breaks(&t, f.problems)),
+        expect: f.text("expect").map_or(BreakExpectation::None, |t| read_expectation(&t, f.problems)),
     };
     fields.finish();
     Some(run)

@@ -6,12 +6,13 @@ use super::lab::Lab;
 use super::lesson::{LabEntry, Lesson, Widget};
 use super::problem::{Mistake, Problem};
 use super::read_lab::{read_any_lab, read_integrators, read_lab};
-use super::{comment, quiz, shared};
+use super::sources::read_json;
+use super::{quiz, read_comments, shared};
 use crate::json::{self, Json, Node};
 use crate::markdown::{self, Block, BlockKind, LabKind, Scan};
-use crate::source::{MAX_FILE, SourceFile, SourceMap};
+use crate::source::{MAX_FILE, SourceFile, SourceMap, Sources};
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The maximum number of problems per file: more than anyone reads.
 const MAX_PROBLEMS: usize = 10_000;
@@ -19,9 +20,17 @@ const MAX_PROBLEMS: usize = 10_000;
 /// Reads a lesson (Markdown) or, if the path ends in `.json`, a lab, a quiz or a list of them. It never fails: errors are
 /// among the problems, and the valid parts are in the lesson.
 pub fn read_lesson(file: SourceFile) -> Lesson {
-    let mut lesson = read_at(file, None);
-    lesson.remarks =
-        comment::read_remarks(&lesson.file, &lesson.scan, &mut lesson.broken, &mut lesson.problems);
+    read_lesson_in(file, None)
+}
+
+/// Reads a lesson whose claims may refer to files beside it. `place` is the path of the lesson, with the sources of other files.
+pub fn read_lesson_in(file: SourceFile, place: Option<(&Path, &Sources)>) -> Lesson {
+    let place = place.map(|(path, sources)| (path.to_path_buf(), sources.clone()));
+    let mut lesson = read_at(file, None, place);
+    let scan = std::mem::take(&mut lesson.scan);
+    lesson.remarks = read_comments::read_remarks(&scan, &mut lesson);
+    lesson.definitions = read_comments::read_definitions(&scan, &mut lesson);
+    lesson.scan = scan;
     lesson.wholes = shared::resolve_uses(&lesson);
     lesson
 }
@@ -32,7 +41,7 @@ pub fn read_lesson(file: SourceFile) -> Lesson {
 /// The reason that there is no such lab.
 pub fn read_other(file: SourceFile, address: &LabAddress, at: Range<usize>) -> Result<Lab, String> {
     let path = file.path().to_string();
-    let lesson = read_at(file, Some(at));
+    let lesson = read_at(file, Some(at), None);
     match lesson.lab(address) {
         Some(_) if lesson.blocks_are_broken() => Err(format!("{path} has JSON that a page cannot read")),
         Some(lab) => Ok(lab.clone()),
@@ -74,7 +83,7 @@ fn byte_order_mark(text: &str) -> usize {
 }
 
 /// Reads a lesson. If `at` is given, all ranges in its JSON are `at`.
-fn read_at(file: SourceFile, at: Option<Range<usize>>) -> Lesson {
+fn read_at(file: SourceFile, at: Option<Range<usize>>, place: Option<(PathBuf, Sources)>) -> Lesson {
     let mut lesson = Lesson {
         file,
         labs: Vec::new(),
@@ -82,13 +91,15 @@ fn read_at(file: SourceFile, at: Option<Range<usize>>) -> Lesson {
         widgets: Vec::new(),
         broken: Vec::new(),
         remarks: Vec::new(),
+        definitions: Vec::new(),
         wholes: Vec::new(),
         others: Vec::new(),
         scan: Scan::default(),
         problems: Vec::new(),
         findings: Vec::new(),
         snapshot: None,
-        place: None,
+        data: Vec::new(),
+        place,
     };
     if lesson.file.text().len() as u64 > MAX_FILE {
         lesson.problems.push(Mistake::TooLarge.at(0..0));
@@ -110,7 +121,7 @@ fn markdown_file(lesson: &mut Lesson, at: Option<Range<usize>>) {
         }
         match &block.kind {
             BlockKind::Lab(kind) => {
-                let node = body(block, &at, lesson);
+                let node = body(block, &at, &scan, lesson);
                 if let Some(node) = &node
                     && nature(node) == Nature::Quiz
                 {
@@ -127,7 +138,7 @@ fn markdown_file(lesson: &mut Lesson, at: Option<Range<usize>>) {
                 push_lab(lesson, block.span.clone(), lab);
             }
             BlockKind::Widget(widget) => {
-                let node = body(block, &at, lesson);
+                let node = body(block, &at, &scan, lesson);
                 let model = node.as_ref().and_then(|n| match &n.get("model")?.json {
                     Json::Text(text) => Some(text.clone()),
                     _ => None,
@@ -135,7 +146,7 @@ fn markdown_file(lesson: &mut Lesson, at: Option<Range<usize>>) {
                 lesson.widgets.push(Widget { name: widget.clone(), span: block.span.clone(), model });
             }
             BlockKind::Quiz => {
-                let Some(node) = body(block, &at, lesson) else { continue };
+                let Some(node) = body(block, &at, &scan, lesson) else { continue };
                 if nature(&node) == Nature::Lab {
                     let mistake = Mistake::HoldsLab(head(text, block, LabKind::Simulation.fence()));
                     lesson.problems.push(mistake.at(block.info.clone()));
@@ -159,24 +170,15 @@ fn head(text: &str, block: &Block, kind: &str) -> String {
 }
 
 /// The JSON of a block.
-fn body(block: &Block, at: &Option<Range<usize>>, lesson: &mut Lesson) -> Option<Node> {
+fn body(block: &Block, at: &Option<Range<usize>>, scan: &Scan, lesson: &mut Lesson) -> Option<Node> {
     if block.body.value.trim().is_empty() {
         lesson.broken.push(block.span.clone());
         lesson.problems.push(Mistake::EmptyFence.at(block.info.clone()));
         return None;
     }
     let map = at.as_ref().map(|at| SourceMap::whole(block.body.value.len(), at.clone()));
-    read_json(&block.body.value, map.as_ref().unwrap_or(&block.body.map), block.span.clone(), lesson)
-}
-
-/// Parses JSON. If it is malformed, the valid parts are read.
-fn read_json(text: &str, map: &SourceMap, span: Range<usize>, lesson: &mut Lesson) -> Option<Node> {
-    let parsed = json::parse(text, map);
-    if parsed.broken {
-        lesson.broken.push(span);
-    }
-    lesson.problems.extend(parsed.problems.into_iter().map(Problem::Json));
-    parsed.node
+    let map = map.as_ref().unwrap_or(&block.body.map);
+    read_json(&block.body.value, map, block.span.clone(), (scan, false), lesson)
 }
 
 fn push_lab(lesson: &mut Lesson, span: Range<usize>, lab: Option<Lab>) {
@@ -192,7 +194,7 @@ fn json_file(lesson: &mut Lesson, at: Option<Range<usize>>) {
     let (length, whole) = (text.len() - start, 0..text.len());
     let map = at.map_or(SourceMap::verbatim(start..text.len()), |at| SourceMap::whole(length, at));
     let text = text.get(start..).unwrap_or("").to_string();
-    let Some(node) = read_json(&text, &map, whole, lesson) else { return };
+    let Some(node) = read_json(&text, &map, whole, (&Scan::default(), false), lesson) else { return };
     match &node.json {
         Json::Array(items) => items.iter().for_each(|item| json_item(lesson, item)),
         _ => json_item(lesson, &node),

@@ -1,7 +1,7 @@
-//! `verify` objects that use the runs and the measures of another one: `"use": "#1"`.
+//! `verify` objects that use the runs and the measures of another one, `"use": "#1"`, or of a definition, `"use": "falls"`.
 
 use super::address::LabAddress;
-use super::lab::{Verify, VerifyLab};
+use super::lab::{UsedObject, Verify, VerifyLab};
 use super::lesson::Lesson;
 use crate::source::Text;
 use labspec_finding::order;
@@ -25,8 +25,18 @@ impl Lesson {
 
     /// The chain of objects that a `verify` object uses.
     pub fn used_by<'a>(&'a self, verify: &'a Verify) -> impl Iterator<Item = &'a Verify> {
-        let next = |verify: &&'a Verify| self.verify_at(&verify.uses.as_ref()?.1);
+        let next = |verify: &&'a Verify| self.used_object(&verify.uses.as_ref()?.1);
         std::iter::successors(next(&verify), next).take(LONGEST)
+    }
+
+    /// The object that another one uses.
+    pub fn used_object(&self, used: &UsedObject) -> Option<&Verify> {
+        match used {
+            UsedObject::Owner(address) => self.verify_at(address),
+            UsedObject::Defined(name) => {
+                self.definitions.iter().find(|one| one.name == *name).map(|one| &one.verify)
+            }
+        }
     }
 
     /// The `verify` object of the lab, or of the question, with this address.
@@ -55,12 +65,17 @@ pub(super) fn resolve_uses(lesson: &Lesson) -> Vec<Verify> {
 fn whole(lesson: &Lesson, verify: &Verify, depth: usize, left: &mut usize) -> Option<Verify> {
     *left = left.checked_sub(verify.span.len())?;
     let mut all = verify.clone();
-    let Some((text, address)) = &verify.uses else { return Some(all) };
-    let Some(used) = lesson.verify_at(address).filter(|used| used.span != verify.span && depth > 0) else {
+    let Some((text, named)) = &verify.uses else { return Some(all) };
+    let Some(used) = lesson.used_object(named).filter(|used| used.span != verify.span && depth > 0) else {
         return Some(all);
     };
     let used = whole(lesson, used, depth - 1, left)?;
-    let reference = lesson.lab(address).map(|_| VerifyLab::Reference(text.clone(), address.clone()));
+    let reference = match named {
+        UsedObject::Owner(address) => {
+            lesson.lab(address).map(|_| VerifyLab::Reference(text.clone(), address.clone()))
+        }
+        UsedObject::Defined(_) => None,
+    };
     all.lab = all.lab.or(used.lab).or(reference);
     add(&mut all.runs, used.runs, |run| &run.name);
     add(&mut all.measure, used.measure, |(name, _)| name);

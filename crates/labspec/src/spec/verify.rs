@@ -2,7 +2,7 @@
 //! ([`lab`](super::lab)), because each can contain the other.
 
 use super::claim::Column;
-use super::lab::{CodeForm, Run, Verify, VerifyLab};
+use super::lab::{BreakExpectation, CodeForm, Run, Verify, VerifyLab};
 use crate::source::{SourceMap, Text};
 use std::ops::Range;
 
@@ -89,7 +89,7 @@ impl Run {
             steps: None,
             stop: None,
             sweep: None,
-            breaks: false,
+            expect: BreakExpectation::None,
         }
     }
 

@@ -7,8 +7,9 @@ use super::interaction::{Action, Interaction, InteractionKind};
 use crate::bind::Programs;
 use crate::rules::{self, Rule};
 use crate::run::{self, Breakdown, Play, RunError, RunOptions, Session, ShorterTimestep, StartedRun, Table};
-use crate::spec::Lab;
+use crate::spec::{ControlKind, Lab};
 use labspec_core::Model;
+use labspec_expr::Value;
 use std::ops::ControlFlow;
 
 /// Number of tested halvings of the timestep, work budget of one run, and of all of them.
@@ -92,6 +93,49 @@ pub(crate) fn with_tried_timestep(
         return breakdown;
     }
     breakdown.shorter = ShorterTimestep::Useless;
+    breakdown
+}
+
+/// The same breakdown with a tested end of a slider: the next value with which the run has no fault, where no timestep helps. The
+/// work is subtracted from `left`.
+pub(crate) fn with_tried_end(
+    case: &StressCase<'_>,
+    lab: &Lab,
+    interaction: &Interaction,
+    length: f64,
+    mut breakdown: Breakdown,
+    left: &mut u64,
+) -> Breakdown {
+    let (ShorterTimestep::No, [action]) = (&breakdown.shorter, interaction.actions.as_slice()) else {
+        return breakdown;
+    };
+    let Some(control) = lab.controls.get(action.control) else { return breakdown };
+    let (ControlKind::Slider { min, max, .. }, Some(step)) = (&control.kind, control.step()) else {
+        return breakdown;
+    };
+    let Some(Value::Number(at)) = action.value else { return breakdown };
+    let (key, next) = match at {
+        x if x == min.value => ("min", min.value + step),
+        x if x == max.value => ("max", max.value - step),
+        _ => return breakdown,
+    };
+    // The value that is run is the one that is printed.
+    let next: f64 = format!("{next:.12e}").parse().unwrap_or(next);
+    if !(min.value..=max.value).contains(&next) {
+        return breakdown;
+    }
+    let inside = Interaction {
+        actions: vec![Action { value: Some(Value::Number(next)), ..action.clone() }],
+        ..interaction.clone()
+    };
+    let outcome = case.run(&inside, None, length, WORK_OF_RUN.min(*left));
+    *left = left.saturating_sub(outcome.spent);
+    if !outcome.cut && has_no_fault(&outcome, breakdown.rule) {
+        breakdown.instead = format!(
+            "write \"{key}\": {next} for this slider: the run is fine with it; or {}",
+            breakdown.instead
+        );
+    }
     breakdown
 }
 

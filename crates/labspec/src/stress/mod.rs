@@ -34,4 +34,4 @@ pub use drift::without_pushed_bodies;
 pub use fault::{Fault, FaultEvidence, FaultGroup, FaultKind, add_fault, worst_fault};
 pub use interaction::{Action, Interaction, InteractionKind, list_interactions, window};
 pub use messages::watched_run;
-pub(crate) use messages::{describe, with_tried_timestep};
+pub(crate) use messages::{describe, with_tried_end, with_tried_timestep};

@@ -124,6 +124,28 @@ impl<'a> RunningAggregate<'a> {
         if self.gaps.count > 0 { f64::NAN } else { self.result }
     }
 
+    /// What did not happen, if the aggregate has no result for this reason.
+    pub(super) fn absent_event(&self) -> Option<String> {
+        use AggregateKind::{At, Before, Crossing, First, Last, Period, Settles};
+        if self.done || !self.result.is_nan() {
+            return None;
+        }
+        match self.kind {
+            First | At | Last => Some("the condition never holds".into()),
+            Before => Some("the condition never holds, or it holds at the first sample".into()),
+            Crossing => Some("the value never passes the level".into()),
+            Period => {
+                let passages = match self.trail.count {
+                    0 => "the value never rises through the level",
+                    _ => "the value rises through the level only once",
+                };
+                Some(format!("{passages}, and a period needs two passages"))
+            }
+            Settles => Some("the value is outside of the band at the end".into()),
+            _ => None,
+        }
+    }
+
     /// Whether an argument reads the sample before the first one.
     fn has_no_past(&self) -> bool {
         self.inner.iter().any(|r| r.kind == AggregateKind::Previous && !r.done || r.has_no_past())

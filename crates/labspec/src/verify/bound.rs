@@ -3,9 +3,10 @@
 use super::bound_run::{BoundRun, BoundScene, CompiledText};
 use super::compiled_claim::{CompiledClaim, reads_run};
 use super::layout::{NumberLayout, Slot};
+use super::list_measure::{self, ArrayLanguage};
 use super::measure::Sampled;
 use super::measure_units::MeasureUnits;
-use super::outcome::{MeasuredRun, MeasuredRuns};
+use super::outcome::{MeasuredRun, MeasuredRuns, SweepMember};
 use super::reads;
 use super::run_cache::{BoundLab, RunCache};
 use super::run_result::RunResult;
@@ -14,14 +15,15 @@ use super::value_kind::{ValueKind, kind_of};
 use crate::bind::{ModelNames, Scope, to_finding};
 use crate::finding::Finding;
 use crate::rules;
-use crate::run::{Session, Start, StepVariant};
+use crate::run::{self, Session, Start, StepVariant};
 use crate::source::Text;
-use crate::spec::{Run, Sweep, Verify};
+use crate::spec::{BreakExpectation, Run, Verify};
 use labspec_core::reflect::option;
 use labspec_core::{AccessSet, Model, Plan};
-use labspec_expr::{Compiled, Compiler};
+use labspec_expr::{Compiled, Compiler, Value};
+use std::borrow::Cow;
 use std::cell::{OnceCell, RefCell};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 /// The labs, runs and measures of a `verify` object.
@@ -38,9 +40,29 @@ pub struct BoundVerify<'a> {
     pub(super) units: OnceCell<Option<MeasureUnits>>,
     /// The positions of all numbers, and the kind of each.
     layout: NumberLayout,
+    /// The measures, as pairs of lab and measure, that depend on variables of `ctx` which the lab computes from the simulation.
+    simulated_ctx: BTreeSet<(usize, usize)>,
     kinds: OnceCell<Vec<ValueKind>>,
     /// Compiled claims by their texts.
     pub(super) claims: RefCell<BTreeMap<String, Rc<CompiledClaim>>>,
+}
+
+/// The language of the measures of one lab.
+struct ArrayOfLab<'b, 'a> {
+    bound: &'b mut BoundVerify<'a>,
+    place: usize,
+}
+
+impl ArrayLanguage for ArrayOfLab<'_, '_> {
+    fn compile(&mut self, text: &Text) -> Option<Compiled> {
+        self.bound.compile_measure(self.place, text)
+    }
+
+    fn number(&mut self, text: &Text) -> Option<f64> {
+        let program = self.compile(text)?.program?;
+        let value = self.bound.idle_in(self.place, |session| session.evaluate(&program, text))??;
+        Some(value.to_number())
+    }
 }
 
 impl<'a> BoundVerify<'a> {
@@ -62,6 +84,7 @@ impl<'a> BoundVerify<'a> {
             idle: RefCell::default(),
             units: OnceCell::new(),
             layout: NumberLayout::default(),
+            simulated_ctx: BTreeSet::new(),
             kinds: OnceCell::new(),
             claims: RefCell::default(),
         };
@@ -82,6 +105,7 @@ impl<'a> BoundVerify<'a> {
             good &= bound.measure(&name.value, text, findings);
         }
         bound.compute_layout();
+        bound.simulated_ctx = bound.find_simulated_ctx();
         good.then_some(bound)
     }
 
@@ -92,10 +116,26 @@ impl<'a> BoundVerify<'a> {
             let Some(made) = self.run(run, at, findings) else { return false };
             self.runs.push(match &run.sweep {
                 None => made,
-                Some(Sweep { what, values }) => {
-                    let x = values.get(i).copied().unwrap_or(f64::NAN);
-                    let control = scene.lab.control(&what.value).map(|_| (what, x));
-                    BoundRun { swept: Some((i, x)), control, ..made }
+                Some(sweep) => {
+                    let (mut controls, mut values) = (Vec::new(), Vec::new());
+                    for (axis, value) in sweep.values(i) {
+                        let control = scene.lab.control(&axis.what.value);
+                        let value = run::swept_value(control, axis, value);
+                        values.push(match value {
+                            Value::Number(x) => x,
+                            // Texts are numbered in their order.
+                            _ => axis
+                                .values
+                                .iter()
+                                .position(|v| v.to_string() == value.to_string())
+                                .map_or(f64::NAN, |i| i as f64),
+                        });
+                        if control.is_some() {
+                            controls.push((&axis.what, value));
+                        }
+                    }
+                    let swept = sweep.is_list().then_some(SweepMember { index: i, values });
+                    BoundRun { swept, controls, ..made }
                 }
             });
         }
@@ -119,7 +159,7 @@ impl<'a> BoundVerify<'a> {
             let measures = self.scene_of(run).into_iter().flat_map(|s| &s.measures);
             measures.map(|(name, _)| name.to_string()).collect()
         };
-        let bare = |run: &BoundRun<'_>| (run.name.to_string(), run.swept, names(run));
+        let bare = |run: &BoundRun<'_>| (run.name.to_string(), run.swept.clone(), names(run));
         let runs: Vec<_> = self.runs.iter().map(bare).collect();
         self.layout = NumberLayout::from_runs(&runs, self.verify.find.iter().map(|f| f.name.value.clone()));
     }
@@ -132,7 +172,18 @@ impl<'a> BoundVerify<'a> {
     /// Whether a measure reads the simulation.
     pub(super) fn is_simulated(&self, run: usize, measure: usize) -> bool {
         let stops = self.runs.get(run).is_some_and(|run| run.stop.is_some());
+        let scene = self.runs.get(run).map_or(0, |run| run.scene);
         self.measure_at(run, measure).is_some_and(|m| reads_run(&m.program, stops))
+            || self.simulated_ctx.contains(&(scene, measure))
+    }
+
+    fn find_simulated_ctx(&self) -> BTreeSet<(usize, usize)> {
+        let measures = self.scenes.iter().enumerate().flat_map(|(place, scene)| {
+            scene.measures.iter().enumerate().map(move |(i, (_, measure))| (place, i, measure))
+        });
+        let simulated =
+            measures.filter(|(place, _, m)| self.depends_on_simulated_ctx(*place, &m.program, &m.text));
+        simulated.map(|(place, i, _)| (place, i)).collect()
     }
 
     pub(super) fn measure_at(&self, run: usize, measure: usize) -> Option<&CompiledText<'a>> {
@@ -199,7 +250,7 @@ impl<'a> BoundVerify<'a> {
         let mut keep = |text: &'a Text, compiled: Compiled| {
             findings.extend(compiled.diagnostics.iter().map(|d| to_finding(d, text)));
             good &= compiled.program.is_some();
-            compiled.program.map(|program| CompiledText { text, program })
+            compiled.program.map(|program| CompiledText { text: Cow::Borrowed(text), program })
         };
         let setup = run.setup.as_ref();
         let setup =
@@ -223,19 +274,46 @@ impl<'a> BoundVerify<'a> {
     fn measure(&mut self, name: &'a str, text: &'a Text, findings: &mut Vec<Finding>) -> bool {
         let mut reported: Option<Vec<Finding>> = None;
         let mut has_meaning = false;
-        for bound in &mut self.scenes {
-            let mut globals = bound.globals.clone();
-            let compiled = Compiler::new(&bound.names(Scope::Measure), &mut globals).expression(&text.value);
-            bound.globals = globals;
-            let diagnostics = || compiled.diagnostics.iter().map(|d| to_finding(d, text)).collect();
-            if reported.is_none() || (!has_meaning && compiled.program.is_some()) {
-                reported = Some(diagnostics());
+        for place in 0..self.scenes.len() {
+            let Some(compiled) = self.compile_measure(place, text) else { continue };
+            let has_room =
+                self.scenes.get(place).is_some_and(|s| s.measures.len() < list_measure::MAX_OF_OBJECT);
+            let elements = match &compiled.program {
+                None if has_room => list_measure::elements(text, &mut ArrayOfLab { bound: self, place }),
+                _ => None,
+            };
+            let mut all: Vec<(Cow<'a, str>, Cow<'a, Text>, Compiled)> = Vec::new();
+            match elements {
+                None => all.push((Cow::Borrowed(name), Cow::Borrowed(text), compiled)),
+                Some(elements) => all.extend(elements.into_iter().enumerate().filter_map(|(i, text)| {
+                    let compiled = self.compile_measure(place, &text)?;
+                    Some((Cow::Owned(list_measure::element_name(name, i)), Cow::Owned(text), compiled))
+                })),
             }
-            has_meaning |= compiled.program.is_some();
-            bound.measures.extend(compiled.program.map(|program| (name, CompiledText { text, program })));
+            let compiles = all.iter().all(|(.., compiled)| compiled.program.is_some());
+            if reported.is_none() || (!has_meaning && compiles) {
+                let first = all.first().map(|(_, text, compiled)| {
+                    compiled.diagnostics.iter().map(|d| to_finding(d, text)).collect()
+                });
+                reported = Some(first.unwrap_or_default());
+            }
+            has_meaning |= compiles;
+            let Some(scene) = self.scenes.get_mut(place).filter(|_| compiles) else { continue };
+            scene.measures.extend(all.into_iter().filter_map(|(name, text, compiled)| {
+                compiled.program.map(|program| (name, CompiledText { text, program }))
+            }));
         }
         findings.extend(reported.into_iter().flatten());
         has_meaning
+    }
+
+    /// Compiles an expression over the samples of the runs of a lab.
+    fn compile_measure(&mut self, place: usize, text: &Text) -> Option<Compiled> {
+        let bound = self.scenes.get_mut(place)?;
+        let mut globals = bound.globals.clone();
+        let compiled = Compiler::new(&bound.names(Scope::Measure), &mut globals).expression(&text.value);
+        bound.globals = globals;
+        Some(compiled)
     }
 
     /// The labs of every run, in the form that [`BoundVerify::new`] takes.
@@ -269,7 +347,7 @@ impl<'a> BoundVerify<'a> {
     /// Sets a control to a value for all runs. The value need not be one that a student can choose.
     pub(super) fn set_freely(&mut self, control: &'a Text, x: f64) {
         for run in &mut self.runs {
-            (run.control, run.freely) = (Some((control, x)), true);
+            (run.controls, run.freely) = (vec![(control, Value::Number(x))], true);
         }
     }
 
@@ -285,17 +363,18 @@ impl<'a> BoundVerify<'a> {
             let measures: Vec<&CompiledText<'_>> = scene.measures.iter().map(|(_, m)| m).collect();
             let made = self.execute_run(run, numerics, &measures, findings)?;
             let names = scene.measures.iter().map(|(name, _)| name.to_string());
-            let mut missing_samples = Vec::new();
+            let mut without_value = Vec::new();
             let mut measures = Vec::new();
-            for (name, Sampled { value, sample_gap, .. }) in names.zip(made.values) {
-                missing_samples.extend(sample_gap.map(|sample_gap| (name.clone(), sample_gap)));
+            for (name, Sampled { value, no_value, .. }) in names.zip(made.values) {
+                without_value.extend(no_value.map(|no_value| (name.clone(), no_value)));
                 measures.push((name, value));
             }
             runs.push(MeasuredRun {
                 name: run.name.to_string(),
-                swept: run.swept,
+                swept: run.swept.clone(),
                 measures,
-                missing_samples,
+                without_value,
+                end: made.end,
                 warnings: made.warnings,
                 broke: made.broke,
             });
@@ -316,9 +395,34 @@ impl<'a> BoundVerify<'a> {
     }
 
     /// The span of a run in the lesson, and whether the lesson declares that it breaks.
-    pub(super) fn run_place(&self, index: usize) -> (std::ops::Range<usize>, bool) {
+    pub(super) fn run_place(&self, index: usize) -> (std::ops::Range<usize>, BreakExpectation) {
         let spec = self.runs.get(index).and_then(|r| r.spec);
-        (spec.map_or(self.verify.span.clone(), |r| r.name.span()), spec.is_some_and(|r| r.breaks))
+        let span = spec.map_or(self.verify.span.clone(), |r| r.name.span());
+        (span, spec.map_or(BreakExpectation::None, |r| r.expect))
+    }
+
+    /// The name of the first sweep whose numbers a text reads.
+    pub(super) fn run_of_list(&self, text: &Text) -> Option<&'a str> {
+        let claim = self.claim(text)?;
+        let mut slots = claim.reads.iter().filter_map(|place| self.layout.slots.get(*place));
+        slots.find_map(|slot| {
+            let (Slot::Measure(run, _) | Slot::Warnings(run) | Slot::Swept(run, _)) = *slot else {
+                return None;
+            };
+            self.runs.get(run).filter(|run| run.swept.is_some()).map(|run| run.name)
+        })
+    }
+
+    /// Whether a claim of the object reads how often the engine warned in a run: it decides itself what a break means.
+    pub(super) fn reads_warnings(&self, index: usize) -> bool {
+        let reads = |text: &Text| {
+            let claim = self.claim(text)?;
+            let slots = claim.reads.iter().filter_map(|place| self.layout.slots.get(*place));
+            Some(slots.into_iter().any(|slot| *slot == Slot::Warnings(index)))
+        };
+        let verify = self.verify;
+        let mut claims = verify.options.iter().chain(&verify.value).chain(verify.quoted());
+        claims.any(|text| reads(text) == Some(true))
     }
 
     /// Whether every run sets its own timestep, so that a halved timestep adds no information.

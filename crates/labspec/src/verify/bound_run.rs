@@ -1,15 +1,18 @@
 //! A run of a `verify` object with its compiled texts, and the lab of the run.
 
+use super::outcome::SweepMember;
 use super::run_cache::BoundLab;
 use crate::bind::{DisplayedLabels, ModelNames, Scope};
 use crate::source::Text;
 use crate::spec::Run;
-use labspec_expr::{Globals, Program};
+use labspec_expr::{Globals, Program, Value};
+use std::borrow::Cow;
 
 /// A program and its source text.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct CompiledText<'a> {
-    pub(super) text: &'a Text,
+    /// The text of the lesson, or that of one element of a list in it.
+    pub(super) text: Cow<'a, Text>,
     pub(super) program: Program,
 }
 
@@ -18,23 +21,24 @@ pub(super) struct CompiledText<'a> {
 pub(super) struct BoundScene<'a> {
     pub(super) scene: BoundLab<'a>,
     pub(super) globals: Globals,
-    pub(super) measures: Vec<(&'a str, CompiledText<'a>)>,
+    /// By name. The elements of a list are `name[0]`, `name[1]`, ….
+    pub(super) measures: Vec<(Cow<'a, str>, CompiledText<'a>)>,
     /// The values that the lab displays under labels, and the labels that are read.
     pub(super) displayed: DisplayedLabels,
 }
 
 /// A run with its compiled texts.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct BoundRun<'a> {
     pub(super) name: &'a str,
     pub(super) spec: Option<&'a Run>,
     pub(super) setup: Option<CompiledText<'a>>,
     pub(super) stop: Option<CompiledText<'a>>,
-    /// Its index and value in a sweep, and the control that is set to the value, unless the value is an attribute of the
-    /// model.
-    pub(super) swept: Option<(usize, f64)>,
-    pub(super) control: Option<(&'a Text, f64)>,
-    /// The value need not be one that a student can choose.
+    /// Its place in a sweep.
+    pub(super) swept: Option<SweepMember>,
+    /// The controls that a sweep or a search sets, with their values.
+    pub(super) controls: Vec<(&'a Text, Value)>,
+    /// The values need not be ones that a student can choose.
     pub(super) freely: bool,
     /// The index of its lab in the list.
     pub(super) scene: usize,
@@ -43,15 +47,24 @@ pub(super) struct BoundRun<'a> {
 impl<'a> BoundRun<'a> {
     /// A run without texts, for the lab at this index.
     pub(super) fn new(name: &'a str, spec: Option<&'a Run>, scene: usize) -> BoundRun<'a> {
-        BoundRun { name, spec, setup: None, stop: None, swept: None, control: None, freely: false, scene }
+        BoundRun {
+            name,
+            spec,
+            setup: None,
+            stop: None,
+            swept: None,
+            controls: Vec::new(),
+            freely: false,
+            scene,
+        }
     }
 }
 
 impl BoundRun<'_> {
     /// The name of the run in conditions: `fall`, `fall[2]`.
     pub(super) fn title(&self) -> String {
-        match self.swept {
-            Some((i, _)) => format!("{}[{i}]", self.name),
+        match &self.swept {
+            Some(member) => format!("{}[{}]", self.name, member.index),
             None => self.name.to_string(),
         }
     }

@@ -3,7 +3,7 @@
 //! results of its comparisons.
 
 use super::bound::BoundVerify;
-use super::compiled_claim::{ClaimInputs, CompiledClaim, TracedValue, reads_data, reads_run};
+use super::compiled_claim::{ClaimInputs, CompiledClaim, TracedValue, reads_ctx, reads_data, reads_run};
 use super::condition;
 use super::format::shorten;
 use super::layout::Slot;
@@ -13,8 +13,10 @@ use crate::bind::{NUMBERS, Scope, to_finding};
 use crate::finding::Finding;
 use crate::rules;
 use crate::run::Budget;
-use crate::source::Text;
-use labspec_expr::{Compiler, RuntimeError, Watch};
+use crate::source::{SourceMap, Text};
+use labspec_expr::rules::WHOLE_ARRAY;
+use labspec_expr::{Compiler, Finding as LanguageFinding, Program, RuntimeError, Watch};
+use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
@@ -59,6 +61,26 @@ impl<'a> BoundVerify<'a> {
         Some(claim)
     }
 
+    /// The expressions for the numbers of a quote: the elements of a list, or else the expression itself.
+    pub(super) fn numbers_of_quote<'t>(&self, expr: &'t Text) -> Vec<Cow<'t, Text>> {
+        match self.length_of_list(expr) {
+            Some(length) => (0..length).map(|i| Cow::Owned(with_suffix(expr, &format!("[{i}]")))).collect(),
+            None => vec![Cow::Borrowed(expr)],
+        }
+    }
+
+    /// The length of the list that an expression names; `None` for any other expression.
+    fn length_of_list(&self, expr: &Text) -> Option<usize> {
+        let is_list = |finding: &LanguageFinding| finding.code == WHOLE_ARRAY.code;
+        if !self.claim(expr)?.diagnostics.iter().any(is_list) {
+            return None;
+        }
+        let length = with_suffix(expr, ".length");
+        let program = self.claim(&length)?.program.clone()?;
+        let value = self.idle(|session| session.evaluate(&program, &length))??.to_number();
+        (1.0..=MOST_NUMBERS).contains(&value).then_some(value as usize)
+    }
+
     /// Lints the names in expressions over the outcome, before the runs.
     pub(super) fn lint_texts<'t>(&self, texts: impl Iterator<Item = &'t Text>, findings: &mut Vec<Finding>) {
         for text in texts {
@@ -70,6 +92,16 @@ impl<'a> BoundVerify<'a> {
             }
         }
     }
+}
+
+/// Maximum number of numbers of a quote.
+const MOST_NUMBERS: f64 = 100.0;
+
+/// An expression with a suffix; its span is that of the whole.
+pub(super) fn with_suffix(expr: &Text, suffix: &str) -> Text {
+    let value = format!("({}){suffix}", expr.value);
+    let map = SourceMap::whole(value.len(), expr.span());
+    Text { value, map }
 }
 
 impl CompiledClaim {
@@ -93,6 +125,11 @@ impl CompiledClaim {
             outside = reads_data(effects) || effects.any_ctx || !effects.ctx_reads.is_empty();
         }
         let constants = condition::numbers_in(text);
+        let nowhere = Text { value: String::new(), map: SourceMap::whole(0, 0..0) };
+        let reads_simulated_ctx = compiled
+            .program
+            .as_ref()
+            .is_some_and(|program| bound.depends_on_simulated_ctx(0, program, &nowhere));
         Some(CompiledClaim {
             program: compiled.program,
             diagnostics: compiled.diagnostics,
@@ -100,6 +137,7 @@ impl CompiledClaim {
             outside,
             names: names.names_read(),
             constants,
+            reads_simulated_ctx,
         })
     }
 
@@ -119,11 +157,12 @@ impl CompiledClaim {
         let simulated = |place: &usize| match slots.get(*place) {
             Some(Slot::Measure(run, m)) => bound.is_simulated(*run, *m),
             Some(Slot::Warnings(_) | Slot::Found(_)) => true,
-            Some(Slot::Swept(_) | Slot::Missing) | None => false,
+            Some(Slot::Swept(..) | Slot::Missing | Slot::SeveralAxes) | None => false,
         };
         let taken_here = self.program.iter().flat_map(|p| p.aggregates().iter().enumerate());
         let stops = bound.runs.first().is_some_and(|run| run.stop.is_some());
-        let taken_here = taken_here.filter(|(_, a)| a.args.iter().any(|arg| reads_run(arg, stops)));
+        let reads = |arg: &Program| reads_run(arg, stops) || self.reads_simulated_ctx && reads_ctx(arg);
+        let taken_here = taken_here.filter(|(_, a)| a.args.iter().any(reads));
         let taken_here = taken_here.map(|(i, _)| slots.len() + i);
         self.reads.iter().copied().filter(simulated).chain(taken_here).collect()
     }

@@ -1,7 +1,9 @@
 //! Columns of tables: every cell is a quoted number or a word, and the row determines the member of a sweep that the cell
 //! describes.
 
+use super::claim::with_suffix;
 use super::grounded::grounded_value;
+use super::layout::name_of_axis;
 use super::quote;
 use super::quote_checker::{Quote, QuoteChecker, QuotedValue, check_number, check_words};
 use super::units;
@@ -9,6 +11,7 @@ use crate::finding::Finding;
 use crate::rules;
 use crate::source::{SourceMap, Text};
 use crate::spec::{Column, Stands};
+use labspec_expr::Value;
 use labspec_expr::dimension::Dimension;
 
 /// The work of reading a cell.
@@ -41,7 +44,9 @@ pub(super) fn check_column(
         }
     };
     let unit = quote::unit_of_head(claim.column.as_str());
-    let Some((_, list)) = &claim.by else {
+    let key_head = claim.by.as_ref().and_then(|(head, _)| quote::unit_of_head(head.as_str()));
+    let implied = claim.by.is_none().then(|| implied_values(checker, &claim.is)).flatten();
+    let Some(list) = claim.by.as_ref().map(|(_, list)| list).or(implied.as_ref()) else {
         return cells
             .into_iter()
             .map(|[_, text]| check_cell(checker, &text, &claim.is, &unit, "", findings))
@@ -52,7 +57,6 @@ pub(super) fn check_column(
         Err(reason) => return vec![Quote::unclear(&claim.column, &reason)],
     };
     let swept = units::of_claim(checker.bound, &checker.outcomes.nominal, &part(list, "[0]"));
-    let key_head = claim.by.as_ref().and_then(|(head, _)| quote::unit_of_head(head.as_str()));
     let rows = SweepRows { list, values, swept, key_head };
     let mut all = Vec::new();
     for [key, text] in cells {
@@ -62,6 +66,23 @@ pub(super) fn check_column(
         });
     }
     all
+}
+
+/// The values of the sweep whose list a cell states, where the claim names a row only: the row tells the member.
+fn implied_values(checker: QuoteChecker<'_, '_>, is: &Stands) -> Option<Text> {
+    let expr = match is {
+        Stands::Number(expr) => expr,
+        Stands::Words(words) => &words.first()?.1,
+    };
+    // A list has a first number; the value of an expression that is a number has none.
+    let first = checker.bound.find(&checker.outcomes.nominal, &part(expr, "[0]"), &mut Vec::new())?;
+    if !matches!(first.value, Value::Number(_)) {
+        return None;
+    }
+    let run = checker.bound.run_of_list(&part(expr, "[0]"))?;
+    let value = format!("{run}.{}", name_of_axis(0));
+    let map = SourceMap::whole(value.len(), expr.span());
+    Some(Text { value, map })
 }
 
 /// The members of a sweep that the rows of a table describe.
@@ -229,11 +250,9 @@ fn values(
 }
 
 /// An expression with a suffix; its span is that of the whole.
-fn part(list: &Text, behind: &str) -> Text {
+pub(super) fn part(list: &Text, behind: &str) -> Text {
     if behind.is_empty() {
         return list.clone();
     }
-    let value = format!("({}){behind}", list.value);
-    let map = SourceMap::whole(value.len(), list.span());
-    Text { value, map }
+    with_suffix(list, behind)
 }

@@ -20,6 +20,8 @@ pub(super) struct CompiledClaim {
     pub(super) names: NamesRead,
     /// Number literals of the text.
     pub(super) constants: Vec<f64>,
+    /// Whether its aggregates depend on variables of `ctx` that the lab computes from the simulation.
+    pub(super) reads_simulated_ctx: bool,
 }
 
 /// The numbers with which a claim is evaluated.
@@ -87,4 +89,12 @@ pub(super) fn reads_run(program: &Program, stops: bool) -> bool {
     let counts = |field: FieldId| field.info().object == Object::Data && (stops || field != data::time);
     reads_any(program.effects(), &counts)
         || program.aggregates().iter().flat_map(|a| &a.args).any(|arg| reads_run(arg, stops))
+}
+
+/// Whether a program reads variables of `ctx`, directly or in an aggregate.
+pub(super) fn reads_ctx(program: &Program) -> bool {
+    let effects = program.effects();
+    effects.any_ctx
+        || !effects.ctx_reads.is_empty()
+        || program.aggregates().iter().flat_map(|a| &a.args).any(reads_ctx)
 }

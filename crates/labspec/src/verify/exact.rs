@@ -381,7 +381,7 @@ impl ClosedFormRuns<'_> {
     fn run(&self, parts: usize, stage: &RunCache<'_>) -> Result<Differences, String> {
         let mut session = self.start();
         let h = session.world.model.opt.timestep;
-        let count = run::count_steps(self.lab, None, None, h).map_err(|e| e.0)?.clamp(1, MAX_STEPS);
+        let count = run::count_steps(self.lab, None, None, h).map_err(|e| e.message)?.clamp(1, MAX_STEPS);
         let every = count.div_ceil(SAMPLES);
         *session.world.model.edit().opt.timestep = h / parts as f64;
         let mut found = Differences { times: Vec::new(), values: Vec::new() };

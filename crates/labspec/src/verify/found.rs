@@ -9,6 +9,7 @@ use super::condition::{self, ConditionMargin};
 use super::evidence::{self, ClaimValue};
 use super::format::{shorten, significant};
 use super::layout::Slot;
+use super::measure::NoValue;
 use super::outcome::MeasuredRuns;
 use super::value_kind::{ValueKind, kinds_of};
 use crate::bind::to_finding;
@@ -16,7 +17,9 @@ use crate::finding::Finding;
 use crate::ledger::Evidence;
 use crate::rules;
 use crate::source::Text;
+use crate::spec::BreakExpectation;
 use labspec_expr::{RuntimeError, Value};
+use std::borrow::Cow;
 use std::rc::Rc;
 
 /// The value of an expression over the measures, and the evidence for it.
@@ -39,9 +42,27 @@ pub(super) struct MeasuredValue {
 /// An expression that is undecided because of a NaN.
 #[derive(Clone, Debug)]
 pub(super) struct Undecided {
-    pub(super) part: String,
-    /// The measure that has no value, and the reason.
-    pub(super) because: Option<String>,
+    /// The comparison that the NaN decided; `None` for an expression that is itself NaN.
+    pub(super) part: Option<String>,
+    pub(super) cause: Option<Cause>,
+}
+
+impl Undecided {
+    /// The part of the text without a value.
+    pub(super) fn part_of(&self, text: &Text) -> String {
+        self.part.clone().unwrap_or_else(|| text.value.trim().to_string())
+    }
+}
+
+/// Where a NaN comes from.
+#[derive(Clone, Debug)]
+pub(super) enum Cause {
+    /// A measure of a run, by their indexes, or the aggregates of the text itself in its only run.
+    Measure { run: usize, measure: Option<usize>, no_value: Option<NoValue> },
+    /// A search without a result, by its name.
+    Search(String),
+    /// A list of a sweep over several quantities without the list of values that belongs to it.
+    SeveralAxes,
 }
 
 /// A claim, the inputs of its evaluation, and the result.
@@ -72,7 +93,7 @@ impl BoundVerify<'_> {
         let nothing_read = claim.reads.is_empty() && program.aggregates().is_empty();
         let evidence = if measured.is_empty() { Evidence::Computed } else { Evidence::Simulated };
         let mut parts = Vec::new();
-        let mut sample_gap = None;
+        let mut no_value = None;
         if !program.aggregates().is_empty() {
             let [run] = self.runs.as_slice() else { return None };
             if let Some(x) = outcome.measured_elsewhere(&text.value) {
@@ -86,13 +107,13 @@ impl BoundVerify<'_> {
                 });
             }
             // The text contains aggregates, which is allowed in a lesson with one run: repeat the run to evaluate them.
-            let named = CompiledText { text, program: program.clone() };
+            let named = CompiledText { text: Cow::Borrowed(text), program: program.clone() };
             let made = self.execute_run(run, outcome.numerics, &[&named], findings)?;
-            let expected = run.spec.is_some_and(|r| r.breaks);
-            let how = made.broke.filter(|_| !expected);
+            let expect = run.spec.map_or(BreakExpectation::None, |r| r.expect);
+            let how = made.broke.filter(|_| expect.forbids());
             broke = broke.or(how.map(|how| format!("the run breaks: {how}")));
             if let Some(sampled) = made.values.into_iter().next() {
-                (parts, sample_gap) = (sampled.parts, sampled.sample_gap);
+                (parts, no_value) = (sampled.parts, sampled.no_value);
             }
         }
         let inputs = claim.inputs(self, outcome, parts);
@@ -103,10 +124,15 @@ impl BoundVerify<'_> {
                 return None;
             }
         };
-        let undecided = traced.lost.map(|span| Undecided {
-            part: text.value.get(span.start..span.end).unwrap_or(&text.value).to_string(),
-            because: sample_gap.map(|d| d.to_string()).or_else(|| self.missing(&claim, outcome, &inputs)),
-        });
+        let cause = match no_value {
+            Some(no_value) => Some(Cause::Measure { run: 0, measure: None, no_value: Some(no_value) }),
+            None => self.missing(&claim, outcome, &inputs).or_else(|| self.reads_grid(&claim)),
+        };
+        let part =
+            traced.lost.map(|span| text.value.get(span.start..span.end).unwrap_or(&text.value).to_string());
+        let is_nan = matches!(traced.value, Value::Number(x) if x.is_nan());
+        let cause = cause.filter(|cause| part.is_none() || !matches!(cause, Cause::SeveralAxes));
+        let undecided = (part.is_some() || is_nan && cause.is_some()).then_some(Undecided { part, cause });
         let value = if undecided.is_some() { Value::Number(f64::NAN) } else { traced.value.clone() };
         // The length of a sweep is not a result of a run, so a condition on it is not evidence.
         let is_condition = matches!(value, Value::Boolean(_));
@@ -122,33 +148,49 @@ impl BoundVerify<'_> {
         slots().find_map(|slot| {
             let Slot::Measure(place, _) = *slot else { return None };
             let run = outcome.runs.get(place)?;
-            let (_, expected) = self.run_place(place);
+            let (_, expect) = self.run_place(place);
             let name = crate::json::read::named(&run.title());
             match &run.broke {
-                Some(how) if !(expected || excused(place)) => Some(format!("the run {name} breaks: {how}")),
-                None if expected => Some(format!("the run {name} is expected to break, but it does not")),
+                Some(how) if expect.forbids() && !excused(place) => {
+                    Some(format!("the run {name} breaks: {how}"))
+                }
+                None if expect.requires() => {
+                    Some(format!("the run {name} is expected to break, but it does not"))
+                }
                 _ => None,
             }
         })
     }
 
-    /// The first NaN that a claim reads, with the reason.
-    fn missing(&self, claim: &CompiledClaim, outcome: &MeasuredRuns, inputs: &ClaimInputs) -> Option<String> {
+    /// Where the first NaN comes from that a claim reads.
+    fn missing(&self, claim: &CompiledClaim, outcome: &MeasuredRuns, inputs: &ClaimInputs) -> Option<Cause> {
         let nothing = |place: &&usize| inputs.numbers.get(**place).is_some_and(|x| x.is_nan());
         let place = claim.reads.iter().find(nothing)?;
-        match self.layout().slots.get(*place)? {
+        match *self.layout().slots.get(*place)? {
             Slot::Measure(run, measure) => {
-                let run = outcome.runs.get(*run)?;
-                let (name, _) = run.measures.get(*measure)?;
-                let title = format!("{}.{name}", run.title());
-                Some(match run.missing_samples.iter().find(|(doubted, _)| doubted == name) {
-                    Some((_, sample_gap)) => format!("`{title}` has no value: {sample_gap}"),
-                    None => format!("`{title}` has no value: its event does not happen in the run"),
-                })
+                let measured = outcome.runs.get(run)?;
+                let (name, _) = measured.measures.get(measure)?;
+                let found = measured.without_value.iter().find(|(other, _)| other == name);
+                let no_value = found.map(|(_, no_value)| no_value.clone());
+                Some(Cause::Measure { run, measure: Some(measure), no_value })
             }
-            Slot::Found(i) => outcome.found.get(*i).map(|(name, _)| format!("`{name}` was not found")),
+            Slot::SeveralAxes => Some(Cause::SeveralAxes),
+            Slot::Found(i) => outcome.found.get(i).map(|(name, _)| Cause::Search(name.clone())),
             _ => None,
         }
+    }
+
+    /// Whether a claim reads lists of a sweep over several quantities: a line through one has no values of its own.
+    fn reads_grid(&self, claim: &CompiledClaim) -> Option<Cause> {
+        let mut slots = claim.reads.iter().filter_map(|place| self.layout().slots.get(*place));
+        let is_grid = |slot: &Slot| {
+            let Slot::Measure(run, _) = *slot else { return false };
+            self.runs
+                .get(run)
+                .and_then(|run| run.swept.as_ref())
+                .is_some_and(|member| member.values.len() > 1)
+        };
+        slots.any(is_grid).then_some(Cause::SeveralAxes)
     }
 
     /// Whether a claim could have a different outcome if the runs gave other values. `says` converts a value to the
@@ -244,7 +286,7 @@ impl BoundVerify<'_> {
     /// Whether a condition holds, and its margin.
     pub(super) fn evaluate_margin(&self, found: &MeasuredValue) -> ConditionMargin {
         let holds = found.value.truthy();
-        let without_number = found.undecided.as_ref().map(|u| u.part.clone());
+        let without_number = found.undecided.as_ref().map(|u| u.part.clone().unwrap_or_default());
         let Some(evaluated) = found.trace.as_ref().filter(|_| without_number.is_none()) else {
             return ConditionMargin { holds, margin: None, without_number };
         };

@@ -3,7 +3,9 @@
 use super::bound::BoundVerify;
 use super::condition;
 use super::format::shorten;
-use super::found::{MeasuredValue, Undecided};
+use super::found::{Cause, MeasuredValue, Undecided};
+use super::layout::name_of_axis;
+use super::no_value::{self, MissingMeasure};
 use super::outcome::MeasuredRuns;
 use crate::finding::Finding;
 use crate::rules;
@@ -49,7 +51,7 @@ pub(super) fn decided_value(
         return Err(broke.clone());
     }
     match &found.undecided {
-        Some(undecided) => Err(report_undecided(text, undecided, findings)),
+        Some(undecided) => Err(report_undecided(bound, outcome, text, undecided, findings)),
         None => Ok(found),
     }
 }
@@ -69,14 +71,40 @@ pub(super) fn report_constant_claim(text: &Text, findings: &mut Vec<Finding>) ->
 }
 
 /// Reports an expression that is decided by a NaN.
-pub(super) fn report_undecided(text: &Text, undecided: &Undecided, findings: &mut Vec<Finding>) -> String {
-    let part = &undecided.part;
-    let because = undecided.because.as_deref();
-    let why = because.unwrap_or("a measure is NaN if its event never happens in the run").to_string();
-    findings.push(
-        Finding::error(rules::COMPARES_NAN, text.span(), format!("`{part}` compares NaN"))
-            .why(format!("a comparison with NaN says nothing about the claim: {why}"))
-            .help("make the run longer, correct the measure, or test for it with `isNaN(x)`"),
-    );
+pub(super) fn report_undecided(
+    bound: &BoundVerify<'_>,
+    outcome: &MeasuredRuns,
+    text: &Text,
+    undecided: &Undecided,
+    findings: &mut Vec<Finding>,
+) -> String {
+    let part = shorten(&undecided.part_of(text));
+    match &undecided.cause {
+        Some(Cause::Measure { run, measure, no_value }) => {
+            let missing = MissingMeasure { run: *run, measure: *measure, no_value: no_value.as_ref(), text };
+            return no_value::report_missing(bound, outcome, &missing, findings);
+        }
+        Some(Cause::Search(name)) => {
+            findings.push(
+                Finding::error(rules::COMPARES_NAN, text.span(), format!("`{part}` compares NaN"))
+                    .why(format!("a comparison with NaN says nothing about the claim: `{name}` was not found"))
+                    .help("correct the search, or test for it with `isNaN(x)`"),
+            );
+        }
+        Some(Cause::SeveralAxes) => {
+            let help = format!("name the values, as in `slope(run.measure, run.{})`", name_of_axis(1));
+            findings.push(
+                Finding::error(rules::CLAIM_WITHOUT_NUMBER, text.span(), format!("`{part}` has no value"))
+                    .why("the sweep changes several quantities, so no single list of values belongs to its measures")
+                    .help(help),
+            );
+            return format!("`{part}` has no value");
+        }
+        None => findings.push(
+            Finding::error(rules::COMPARES_NAN, text.span(), format!("`{part}` compares NaN"))
+                .why("a comparison with NaN says nothing about the claim: it divides zero by zero, or takes a root or logarithm of a negative number")
+                .help("correct the expression, or test for NaN with `isNaN(x)`"),
+        ),
+    }
     format!("`{part}` compares NaN")
 }

@@ -6,7 +6,7 @@ use super::aggregate::AggregateKind;
 use super::anything::{Anything, DrawMode};
 use super::bound::BoundVerify;
 use super::bound_run::CompiledText;
-use super::compiled_claim::{ClaimInputs, CompiledClaim};
+use super::compiled_claim::{ClaimInputs, CompiledClaim, reads_ctx};
 use super::condition::numbers_in;
 use super::draws::Draws;
 use super::evidence::{ClaimValue, reach};
@@ -14,6 +14,7 @@ use super::layout::Slot;
 use super::measure::Measure;
 use super::sample::Sample;
 use super::value_kind::ValueKind;
+use crate::bind::Programs;
 use crate::source::{SourceMap, Text};
 use labspec_expr::{Context, Program, Value};
 
@@ -41,6 +42,29 @@ impl Sample for ImaginedRun<'_> {
     }
 }
 
+impl ImaginedRun<'_> {
+    /// Executes the programs that compute variables of `ctx` at every step: the controller, the traces and the readouts.
+    fn execute(&mut self, programs: &Programs) {
+        let probes = programs.probes.iter().filter_map(|probe| probe.bound.as_ref());
+        for bound in programs.controller.iter().chain(probes) {
+            if writes_ctx(&bound.program) {
+                self.context.allow(PROGRAM_WORK);
+                // A program that throws leaves what it has stored until then, as in a run.
+                let _ = bound.program.run(&mut self.host, &mut self.context, None);
+            }
+        }
+    }
+}
+
+fn writes_ctx(program: &Program) -> bool {
+    let effects = program.effects();
+    effects.any_ctx || effects.calls_values || !effects.ctx_writes.is_empty() || !effects.ctx_reads.is_empty()
+}
+
+/// Number of samples, and of pairs of runs, that decide whether variables of `ctx` are results of the simulation.
+const CTX_SAMPLES: u64 = 6;
+const CTX_PAIRS: u64 = 4;
+
 /// Number of sets of imagined runs, and how many of them must decide a claim.
 const MAX_RUN_SETS: u64 = 200;
 const DECIDED: usize = 24;
@@ -51,6 +75,30 @@ const MOST_SAMPLES: f64 = 4096.0;
 const MAX_EVALUATIONS: usize = 40_000;
 
 impl BoundVerify<'_> {
+    /// Whether a measure, or the aggregates of a claim, depend on variables of `ctx` that the lab computes from the simulation:
+    /// they differ between two imagined runs with the same times.
+    pub(super) fn depends_on_simulated_ctx(&self, scene: usize, program: &Program, text: &Text) -> bool {
+        let Some(bound) = self.scenes.get(scene).filter(|_| reads_ctx(program)) else { return false };
+        let programs = &bound.scene.programs;
+        let results = |seed: u64| {
+            self.idle_in(scene, |session| {
+                let world = &session.world;
+                let host = Anything { world, seeds: [seed, 0], manner: DrawMode::Any, time: Some(0.0) };
+                let mut imagined = ImaginedRun { host, context: session.context.clone() };
+                let mut measure = Measure::new(program, text);
+                for sample in 0..CTX_SAMPLES {
+                    imagined.host.seeds = [seed, seed ^ (sample + 1) << 40];
+                    imagined.host.time = Some(sample as f64);
+                    imagined.execute(programs);
+                    measure.sample(&mut imagined);
+                }
+                let parts = measure.parts();
+                parts.into_iter().map(f64::to_bits).collect::<Vec<_>>()
+            })
+        };
+        (0..CTX_PAIRS).any(|pair| results(2 * pair + 1) != results(2 * pair + 2))
+    }
+
     /// Whether some set of imagined runs gives a claim an outcome other than `current`. Also `true` where too few sets decide
     /// it.
     pub(super) fn differs_somewhere(
@@ -137,16 +185,22 @@ impl BoundVerify<'_> {
             let seed = set.wrapping_mul(0x1_0001) ^ (run as u64) << 20;
             let manner = manner(&mut draws, numbers);
             let here = || measures.iter().filter(|(_, owner, _)| *owner == run);
-            self.idle_in(self.runs.get(run)?.scene, |session| {
+            let scene = self.runs.get(run)?.scene;
+            let texts = here().map(|(.., m)| &m.program).chain(on_the_spot.filter(|_| run == 0));
+            let programs = texts.into_iter().any(reads_ctx).then(|| self.scenes.get(scene)).flatten();
+            self.idle_in(scene, |session| {
                 let host = Anything { world: &session.world, seeds: [seed, 0], manner, time: Some(0.0) };
                 let mut imagined = ImaginedRun { host, context: session.context.clone() };
                 let mut running: Vec<Measure<'_>> =
-                    here().map(|(.., m)| Measure::new(&m.program, m.text)).collect();
+                    here().map(|(.., m)| Measure::new(&m.program, &m.text)).collect();
                 let mut parts = on_the_spot.filter(|_| run == 0).map(|p| Measure::new(p, &nowhere));
                 let mut time = 0.0;
                 for sample in 0..samples as u64 {
                     imagined.host.seeds = [seed, seed ^ (sample + 1) << 40];
                     imagined.host.time = Some(time);
+                    if let Some(bound) = programs {
+                        imagined.execute(&bound.scene.programs);
+                    }
                     running.iter_mut().chain(&mut parts).for_each(|m| m.sample(&mut imagined));
                     time += draws.any().abs();
                 }

@@ -1,11 +1,10 @@
 //! The results of all claims of one `verify` object.
 
 use super::exact::ClosedForm;
-use super::quote::QuoteState;
 use super::quote_checker::Quote;
-use super::verdict::{Answer, Verdict};
-use crate::ledger::State;
-use crate::spec::{Question, Run, Verify};
+use super::verdict::Answer;
+use crate::ledger::{Evidence, State};
+use crate::spec::{BreakExpectation, Question, Run, Verify};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
@@ -35,8 +34,25 @@ pub struct RunReport {
     pub span: Range<usize>,
     /// How it broke.
     pub broke: Option<String>,
-    /// Whether the lesson declares that it breaks.
-    pub expected: bool,
+    /// Whether it breaks, as the lesson says.
+    pub expect: BreakExpectation,
+}
+
+impl RunReport {
+    /// The state of the run, and the word that reports print for it.
+    pub fn outcome(&self) -> (State, &'static str) {
+        match (&self.broke, self.expect) {
+            (Some(_), expect) if expect.forbids() => (State::False, "broken"),
+            (Some(_), _) => (State::True(Evidence::Simulated), "breaks"),
+            (None, expect) if expect.requires() => (State::False, "does not break"),
+            (None, _) => (State::True(Evidence::Simulated), "made"),
+        }
+    }
+
+    /// Whether the lesson says that it breaks, or that it may and it does.
+    pub fn is_break_expected(&self) -> bool {
+        self.expect.requires() || self.broke.is_some() && !self.expect.forbids()
+    }
 }
 
 /// A measure under the numerics of the lesson and at half the timestep.
@@ -50,6 +66,8 @@ pub struct Measured {
     /// Its value at half the timestep; `None` when it is the same, was not needed, or the lesson sets every timestep.
     #[serde(with = "crate::verify::float_bits")]
     pub halved: Option<f64>,
+    /// Its unit, by its dimension; empty if it has none, or if it is not certain.
+    pub unit: String,
 }
 
 /// The result of a `verify` object whose runs cannot be executed: no claim could be checked.
@@ -58,7 +76,7 @@ pub fn not_executable(verify: &Verify, question: Option<&Question>, reason: &str
         name: run.name.value.clone(),
         span: run.name.span(),
         broke: None,
-        expected: run.breaks,
+        expect: run.expect,
     };
     Judgement {
         answer: question.filter(|_| verify.claims_answer()).map(|_| Answer::failed(reason)),
@@ -73,21 +91,5 @@ pub fn not_executable(verify: &Verify, question: Option<&Question>, reason: &str
         runs: verify.runs.iter().map(run).collect(),
         measures: Vec::new(),
         unmade: Some(reason.to_string()),
-    }
-}
-
-impl Judgement {
-    /// Changes every true result to unchecked, for a reason that applies to all of them.
-    pub(crate) fn withdraw(&mut self, reason: &str) {
-        let is_true = |state: State| matches!(state, State::True(_));
-        for answer in self.answer.iter_mut().filter(|a| is_true(a.verdict.state())) {
-            *answer = Answer { verdict: Verdict::Failed, reason: reason.to_string(), ..answer.clone() };
-        }
-        for quote in self.quotes.iter_mut().filter(|q| q.state == QuoteState::Right) {
-            (quote.state, quote.reason) = (QuoteState::Unclear, reason.to_string());
-        }
-        for form in self.exact.iter_mut().filter(|form| is_true(form.state)) {
-            (form.state, form.remark) = (State::Unchecked, reason.to_string());
-        }
     }
 }

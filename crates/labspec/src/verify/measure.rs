@@ -29,6 +29,56 @@ impl std::fmt::Display for MissingSamples {
     }
 }
 
+/// Why a measure has no value.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum NoValue {
+    /// Samples had no number.
+    Samples(MissingSamples),
+    /// What an aggregate waits for did not happen: the aggregate as written, and what did not happen.
+    Event { part: String, what: String },
+}
+
+impl NoValue {
+    /// Whether two measures wait for the same event, which does not happen.
+    pub(super) fn is_same_event(&self, other: &NoValue) -> bool {
+        match (self, other) {
+            (NoValue::Event { part: a, .. }, NoValue::Event { part: b, .. }) => {
+                first_argument(a).is_some_and(|event| first_argument(b) == Some(event))
+            }
+            _ => false,
+        }
+    }
+}
+
+/// The first argument of a call, without spaces.
+fn first_argument(call: &str) -> Option<String> {
+    let (_, arguments) = call.split_once('(')?;
+    let mut depth = 0;
+    let mut quote = None;
+    let end = arguments.find(|c: char| {
+        match (quote, c) {
+            (Some(open), c) if c == open => quote = None,
+            (Some(_), _) => {}
+            (None, '\'' | '"') => quote = Some(c),
+            (None, '(' | '[') => depth += 1,
+            (None, ')' | ']') if depth > 0 => depth -= 1,
+            (None, ',' | ')') if depth == 0 => return true,
+            (None, _) => {}
+        }
+        false
+    })?;
+    Some(arguments.get(..end)?.split_whitespace().collect())
+}
+
+impl std::fmt::Display for NoValue {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            NoValue::Samples(missing) => missing.fmt(f),
+            NoValue::Event { part, what } => write!(f, "in `{part}`, {what}"),
+        }
+    }
+}
+
 /// The result of a measure.
 #[derive(Clone, Debug)]
 pub(crate) struct Sampled {
@@ -36,7 +86,8 @@ pub(crate) struct Sampled {
     pub(crate) value: f64,
     /// The results of its aggregates, in order.
     pub(crate) parts: Vec<f64>,
-    pub(crate) sample_gap: Option<MissingSamples>,
+    /// Why it has no value, if that is known.
+    pub(crate) no_value: Option<NoValue>,
 }
 
 /// The aggregates of one measure.
@@ -94,7 +145,16 @@ impl<'a> Measure<'a> {
             }
             (None, None) => None,
         };
-        let parts = self.parts();
-        Sampled { value: if sample_gap.is_some() { f64::NAN } else { value }, parts, sample_gap }
+        let value = if sample_gap.is_some() { f64::NAN } else { value };
+        let event = || {
+            let mut absent = self.running.iter().zip(self.program.aggregates());
+            let (what, aggregate) = absent.find_map(|(r, aggregate)| Some((r.absent_event()?, aggregate)))?;
+            Some(NoValue::Event { part: part(aggregate.span.start, aggregate.span.end), what })
+        };
+        let no_value = match sample_gap {
+            Some(missing) => Some(NoValue::Samples(missing)),
+            None => value.is_nan().then(event).flatten(),
+        };
+        Sampled { value, parts: self.parts(), no_value }
     }
 }

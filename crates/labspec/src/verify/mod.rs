@@ -7,6 +7,7 @@
 //! | one run with its measures | `runner`, `measure`, `reads` |
 //! | values found by a search | `search` |
 //! | numbers that conditions read | `outcome`, at the positions of `layout` |
+//! | the names that an editor offers in such an expression | `claim_names` |
 //! | an expression over measures, compiled once | `claim` |
 //! | its value, and the evidence for it | `found` |
 //! | whether a claim could have a different outcome | `evidence` |
@@ -27,6 +28,7 @@ mod bound;
 mod bound_run;
 mod check_verify;
 mod claim;
+mod claim_names;
 mod column;
 mod compiled_claim;
 mod condition;
@@ -43,8 +45,10 @@ mod imagined;
 pub mod judge;
 mod judgement;
 mod layout;
+mod list_measure;
 mod measure;
 mod measure_units;
+mod no_value;
 mod numeric_answer;
 mod numerics;
 mod option_numbers;
@@ -71,11 +75,12 @@ mod verdict;
 pub use bound::BoundVerify;
 pub use check_verify::check_verify;
 pub(crate) use check_verify::{check_nominal, lint_verify};
+pub use claim_names::ClaimNames;
 pub use curves::Curves;
 pub use exact::ClosedForm;
 pub use format::significant;
 pub use judgement::{Judgement, Measured, RunReport, not_executable};
-pub(crate) use numerics::HALVED;
+pub use numerics::HALVED;
 pub use numerics::PERTURBED_BACK;
 pub use numerics::PERTURBED_START;
 pub use options::UNDECIDED;

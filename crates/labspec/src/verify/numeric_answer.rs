@@ -14,6 +14,7 @@ use crate::finding::Finding;
 use crate::rules;
 use crate::source::Text;
 use crate::spec::{Question, QuestionKind};
+use labspec_bind::units::written;
 use labspec_expr::Value;
 use std::ops::Range;
 
@@ -32,14 +33,21 @@ pub(super) fn check_number(
     else {
         return Answer::failed("the question does not ask for a number");
     };
+    if tol < 0.0 {
+        return Answer::failed("its tolerance is below 0");
+    }
     let value = match finite_number(bound, &outcomes.nominal, text, findings) {
         Ok(value) => value,
         Err(reason) => return Answer::failed(reason),
     };
     let asked = asked.as_ref();
     let measured = asked.and_then(|_| units::of_claim(bound, &outcomes.nominal, text));
+    let gives = measured.as_ref().map(written);
     let unit = quote::answer_unit(asked.map(|u| u.as_str()), measured);
-    let key = NumericKey { answer, tol, span: keyed.span.clone(), text, factor: unit.factor() };
+    let mut key = NumericKey { answer, tol, span: keyed.span.clone(), text, factor: unit.factor(), gives };
+    if let Some(share) = asked.and_then(|unit| quote::percentage(unit.as_str())) {
+        key.factor = key.nearest_factor([1.0, share], value.value.to_number());
+    }
     if let Some(refused) = key.refuse_unit(&unit, findings) {
         return refused;
     }
@@ -106,12 +114,20 @@ struct NumericKey<'q> {
     text: &'q Text,
     /// Factor that converts the value of the expression to the unit of the question.
     factor: f64,
+    /// The unit of the expression, if it is known.
+    gives: Option<String>,
 }
 
 impl NumericKey<'_> {
     /// The distance of a number from the end of the tolerance, positive inside.
     fn margin(&self, x: f64) -> f64 {
         self.tol - (x - self.answer).abs()
+    }
+
+    /// The factor with which a value is nearest to the answer: an expression gives 16.3 % as 16.3 or as 0.163.
+    fn nearest_factor(&self, factors: [f64; 2], value: f64) -> f64 {
+        let [a, b] = factors;
+        if self.margin(b * value) > self.margin(a * value) { b } else { a }
     }
 
     fn accepts(&self, x: f64) -> bool {
@@ -151,10 +167,28 @@ impl NumericKey<'_> {
                     significant((computed - answer).abs()),
                     significant(tol)
                 ))
-                .help("correct the answer, or its expression")
+                .help(self.help_for(computed))
                 .related(self.text.span(), format!("this is {}", significant(computed))),
         );
         message
+    }
+
+    /// The number to write, or the unit of the expression if the answer is right in it.
+    fn help_for(&self, computed: f64) -> String {
+        // As many decimals as in the text, if the tolerance accepts them.
+        let decimals = self.answer.to_string().split_once('.').map_or(0, |(_, digits)| digits.len());
+        let rounded = labspec_expr::to_fixed(computed, decimals);
+        let is_near = |x: f64| (x - computed).abs() <= 0.5 * self.tol;
+        let right = match rounded.parse::<f64>().is_ok_and(is_near) {
+            true => rounded,
+            false => significant(computed),
+        };
+        match &self.gives {
+            Some(unit) if self.factor != 1.0 && self.accepts(computed / self.factor) => {
+                format!("write `\"unit\": \"{unit}\"`, in which the answer is right, or write {right}")
+            }
+            _ => format!("write {right}, or correct the expression"),
+        }
     }
 
     /// Checks that the tolerance rejects the values of mistakes.
@@ -230,7 +264,7 @@ fn value_of_wrong_answer(
     // A mistake may be a bare number.
     let found = bound.find(outcome, text, findings).ok_or("it cannot be evaluated")?;
     if let Some(undecided) = &found.undecided {
-        return Err(report_undecided(text, undecided, findings));
+        return Err(report_undecided(bound, outcome, text, undecided, findings));
     }
     match found.value {
         Value::Number(x) if x.is_finite() => Ok(x),
@@ -273,8 +307,8 @@ fn wrong_unit(span: Range<usize>, text: &Text, message: &str) -> Finding {
 fn no_value(text: &Text, x: f64) -> Finding {
     let message = format!("this expression gives {}, which is not a number", name_not_finite(x));
     Finding::error(rules::CLAIM_WITHOUT_NUMBER, text.span(), message)
-        .why("there is no number to compare with: its event may never happen in the run, or it divides by zero")
-        .help("make the run longer, or correct the expression")
+        .why("there is no number to compare with: it divides by zero, or a value grows without end")
+        .help("correct the expression")
 }
 
 fn name_not_finite(x: f64) -> &'static str {

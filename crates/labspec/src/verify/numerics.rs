@@ -3,7 +3,8 @@
 use crate::run::StepVariant;
 use labspec_core::integrator;
 
-pub(crate) const HALVED: StepVariant = StepVariant { timestep: 0.5, ..StepVariant::NOMINAL };
+/// Half the timestep.
+pub const HALVED: StepVariant = StepVariant { timestep: 0.5, ..StepVariant::NOMINAL };
 
 pub(super) const QUARTERED: StepVariant = StepVariant { timestep: 0.25, ..StepVariant::NOMINAL };
 

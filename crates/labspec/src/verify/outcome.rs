@@ -1,17 +1,29 @@
 //! The results of the runs.
 
-use super::measure::MissingSamples;
+use super::list_measure::measure_of_element;
+use super::measure::NoValue;
 use crate::run::StepVariant;
+
+/// The place of a run in a sweep.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct SweepMember {
+    /// Its index among the runs of the sweep.
+    pub(super) index: usize,
+    /// The value of each axis.
+    pub(super) values: Vec<f64>,
+}
 
 /// The measures of one run.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct MeasuredRun {
     pub(super) name: String,
-    /// Its index and value in a sweep.
-    pub(super) swept: Option<(usize, f64)>,
+    /// Its place in a sweep.
+    pub(super) swept: Option<SweepMember>,
     pub(super) measures: Vec<(String, f64)>,
-    /// Why measures have no value because samples had no number, by name.
-    pub(super) missing_samples: Vec<(String, MissingSamples)>,
+    /// Why measures have no value, by name.
+    pub(super) without_value: Vec<(String, NoValue)>,
+    /// The time of its end, s.
+    pub(super) end: f64,
     /// Number of warnings of the engine.
     pub(super) warnings: usize,
     /// How it broke, in one clause. The measures of a broken run are not evidence.
@@ -21,8 +33,8 @@ pub(super) struct MeasuredRun {
 impl MeasuredRun {
     /// The name of the run in conditions: `fall`, `fall[2]`.
     pub(super) fn title(&self) -> String {
-        match self.swept {
-            Some((i, _)) => format!("{}[{i}]", self.name),
+        match &self.swept {
+            Some(member) => format!("{}[{}]", self.name, member.index),
             None => self.name.clone(),
         }
     }
@@ -51,10 +63,18 @@ impl MeasuredRuns {
     pub(super) fn list(&self) -> Vec<(String, f64)> {
         let short = self.runs.len() == 1;
         let each = |r: &MeasuredRun| {
-            let name = |m: &str| match r.swept {
+            let name = |m: &str| match (&r.swept, measure_of_element(m)) {
                 _ if short => m.to_string(),
-                Some((i, _)) => format!("{}.{m}[{i}]", r.name),
-                None => format!("{}.{m}", r.name),
+                (Some(member), Some((list, element))) => {
+                    // The elements of all runs follow each other.
+                    let is_of_list = |(other, _): &&(String, f64)| {
+                        measure_of_element(other).is_some_and(|(name, _)| name == list)
+                    };
+                    let elements = r.measures.iter().filter(is_of_list).count();
+                    format!("{}.{list}[{}]", r.name, member.index * elements + element)
+                }
+                (Some(member), None) => format!("{}.{m}[{}]", r.name, member.index),
+                (None, _) => format!("{}.{m}", r.name),
             };
             r.measures.iter().map(|(m, x)| (name(m), *x)).collect::<Vec<_>>()
         };

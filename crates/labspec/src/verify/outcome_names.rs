@@ -68,22 +68,30 @@ impl<'a> OutcomeNames<'a> {
     }
 
     /// The entry of a number of the layout, or of a list of `list` numbers. Records the lookup.
-    fn number(&self, path: String, first: usize, list: Option<usize>) -> Entry {
+    fn number(&self, path: String, first: usize, list: Option<usize>, of: &str) -> Entry {
         let met = self.met.get();
         let [numbers, lists] = [met.numbers || list.is_none(), met.lists || list.is_some()];
         self.met.set(NamesRead { numbers, lists });
-        number(path, first, list)
+        number(path, first, list, of)
     }
 
     /// The number, or the list of numbers, of a run with this name.
     fn measured(&self, run: &LayoutRun, name: &str) -> Option<Entry> {
-        let (_, first) = run.at.iter().find(|(measure, _)| measure == name)?;
-        Some(self.number(format!("{}.{name}", run.name), *first, run.list))
+        let result = run.results.iter().find(|result| result.name == name)?;
+        let of = match (run.members, result.elements) {
+            (Some(members), Some(elements)) => {
+                format!("the sweep has {members} values, with {elements} elements of the measure for each")
+            }
+            (None, Some(elements)) => format!("the measure has {elements} elements"),
+            (Some(members), None) => format!("the sweep has {members} values"),
+            (None, None) => String::new(),
+        };
+        Some(self.number(format!("{}.{name}", run.name), result.first, result.list, &of))
     }
 }
 
-/// The entry of a number of the layout, or of a list of `list` numbers.
-fn number(path: String, first: usize, list: Option<usize>) -> Entry {
+/// The entry of a number of the layout, or of a list of `list` numbers. `of` says what determines the length of the list.
+fn number(path: String, first: usize, list: Option<usize>, of: &str) -> Entry {
     Entry::Field(Field {
         key: NUMBERS,
         path,
@@ -92,8 +100,8 @@ fn number(path: String, first: usize, list: Option<usize>) -> Entry {
         kind: FieldKind::Structure,
         elem: Elem::Double,
         unit: String::new(),
-        doc: list.map_or(String::new(), |_| "a number for each value of the sweep".into()),
-        owner: list.map_or(String::new(), |count| format!("the sweep has {count} values")),
+        doc: if list.is_some() { format!("a list: {of}") } else { String::new() },
+        owner: of.to_string(),
     })
 }
 
@@ -104,7 +112,7 @@ impl Schema for OutcomeNames<'_> {
 
     fn root(&self, name: &str) -> Option<Entry> {
         if let Some((_, place)) = self.layout.found.iter().find(|(n, _)| n == name) {
-            return Some(self.number(name.to_string(), *place, None));
+            return Some(self.number(name.to_string(), *place, None, ""));
         }
         if let Some(i) = self.layout.runs.iter().position(|r| r.name == name) {
             return Some(Entry::Object(ObjectId(RUNS + i as u32)));
@@ -167,8 +175,8 @@ impl Schema for OutcomeNames<'_> {
         self.model.function(function)
     }
 
-    fn hint(&self, object: ObjectId, name: &str) -> Option<String> {
-        if self.run(object).is_some() { None } else { self.model.hint(object, name) }
+    fn hint(&self, object: ObjectId, name: &str, index: Option<usize>) -> Option<String> {
+        if self.run(object).is_some() { None } else { self.model.hint(object, name, index) }
     }
 
     fn role(&self, field: FieldKey, index: usize) -> Role {
@@ -190,6 +198,10 @@ impl Schema for OutcomeNames<'_> {
         self.model.element_help(field, index)
     }
 
+    fn unit(&self, field: &Field, element: Option<usize>) -> String {
+        self.model.unit(field, element)
+    }
+
     fn named_element(&self, field: FieldKey, index: usize) -> Option<String> {
         self.model.named_element(field, index)
     }
@@ -199,7 +211,7 @@ impl Schema for OutcomeNames<'_> {
     }
 
     fn host_terms(&self) -> &'static HostTerms {
-        self.model.host_terms()
+        &labspec_bind::CLAIM_TERMS
     }
 
     fn refresh(&self) -> Option<String> {

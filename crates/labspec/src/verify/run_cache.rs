@@ -4,11 +4,11 @@ use super::run_result::RunResult;
 use crate::bind::Programs;
 use crate::bind::scene::Models;
 use crate::finding::Finding;
-use crate::json::{Number, Scalar, nearest, read::named};
+use crate::json::{Number, Scalar, encode, nearest, read::named};
 use crate::rules;
 use crate::run::ProgramsRef;
 use crate::source::Text;
-use crate::spec::{Lab, Run, Sweep};
+use crate::spec::{Lab, Run, SweepAxis};
 use labspec_core::xml::Patch;
 use labspec_core::{Model, Obj};
 use std::borrow::Cow;
@@ -114,6 +114,11 @@ impl<'a> RunCache<'a> {
         self.left.get()
     }
 
+    /// Whether at least half of the work remains.
+    pub(super) fn has_half_its_work(&self) -> bool {
+        self.left.get() >= WORK / 2
+    }
+
     /// Subtracts work from the budget.
     pub(super) fn spend(&self, work: u64) {
         self.left.set(self.left.get().saturating_sub(work));
@@ -136,23 +141,24 @@ impl<'a> RunCache<'a> {
             None => None,
         };
         let controller = run.controller.as_ref();
-        let Some(Sweep { what, values }) = &run.sweep else {
+        let Some(sweep) = &run.sweep else {
             return Some(vec![self.changed(base, &patches, key, controller, findings)?]);
         };
-        if base.lab.control(&what.value).is_some() {
-            let scene = self.changed(base, &patches, key, controller, findings)?;
-            return Some(vec![scene; values.len()]);
-        }
-        if let Some(unknown) = misspelt(&base.lab, what) {
+        let is_attribute = |axis: &&SweepAxis| base.lab.control(&axis.what.value).is_none();
+        let mut attributes = sweep.axes.iter().filter(is_attribute);
+        if let Some(unknown) = attributes.find_map(|axis| misspelt(&base.lab, &axis.what)) {
             findings.push(unknown);
             return None;
         }
-        let with = |x: &f64| {
-            let patch = (Patch { path: what.value.clone(), value: x.to_string() }, what.span());
-            let patches: Vec<_> = patches.iter().cloned().chain([patch]).collect();
+        let member = |index: usize| {
+            let set = sweep.values(index).filter(|(axis, _)| is_attribute(axis));
+            let set = set.map(|(axis, value)| {
+                (Patch { path: axis.what.value.clone(), value: value.to_string() }, axis.what.span())
+            });
+            let patches: Vec<_> = patches.iter().cloned().chain(set).collect();
             self.changed(base, &patches, key, controller, findings)
         };
-        values.iter().map(with).collect()
+        (0..sweep.count()).map(member).collect()
     }
 
     /// A lab with a modified model, another keyframe, or another controller.
@@ -248,7 +254,8 @@ fn changed_lab(lab: &Lab, key: Option<usize>, controller: Option<&Text>) -> Lab 
 pub(super) fn misspelt(lab: &Lab, what: &Text) -> Option<Finding> {
     let right = nearest(&what.value, lab.controls.iter().map(|c| c.label.as_str()))?;
     let message = format!("the lab has no control {}", named(&what.value));
-    Some(cannot(what.span(), message).help(format!("did you mean `{right}`?")))
+    let found = Finding::new(rules::UNKNOWN_CONTROL, what.span(), message);
+    Some(found.help(format!("did you mean `{right}`?")).guess(what.span(), encode(right)))
 }
 
 fn inside(span: &Range<usize>, outer: &Range<usize>) -> bool {

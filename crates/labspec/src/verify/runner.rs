@@ -3,6 +3,7 @@
 
 use super::bound_run::{BoundRun, BoundScene, CompiledText};
 use super::measure::Measure;
+use super::numerics::TIGHT_SOLVER;
 use super::reads;
 use super::run_cache::RunCache;
 use super::run_result::RunResult;
@@ -12,7 +13,7 @@ use crate::json::read::named;
 use crate::rules;
 use crate::run::{self, Budget, End, Play, RunError, Session, Start, StepVariant};
 use labspec_core::reflect::{FieldId, option};
-use labspec_core::{AccessSet, Model, Plan};
+use labspec_core::{AccessSet, Model, Plan, integrator};
 use labspec_expr::{Effects, Program, Value, Watch};
 use std::ops::{ControlFlow, Range};
 
@@ -47,6 +48,13 @@ pub(super) fn execute_run(
         ..request.numerics
     };
     let request = &RunRequest { numerics, place: request.place.clone(), ..*request };
+    // Without constraints, the solver has nothing to do: the result is that of the nominal run.
+    if numerics == TIGHT_SOLVER {
+        let nominal = RunRequest { numerics: StepVariant::NOMINAL, place: request.place.clone(), ..*request };
+        if let Some(made) = stage.cached_run(&key(&nominal)).filter(|made| !made.solved) {
+            return Some(made);
+        }
+    }
     let key = key(request);
     if let Some(cached) = stage.cached_run(&key) {
         stage.note(cached.has_uncoupled_change);
@@ -67,9 +75,9 @@ fn key(request: &RunRequest<'_, '_>) -> String {
         let set: Vec<_> = spec.set.iter().map(|(label, v)| (label.as_str(), scalar(v))).collect();
         let press: Vec<_> = spec.press.iter().map(|(label, t)| (label.as_str(), t.value)).collect();
         let length = [&spec.until, &spec.steps].map(|n| n.as_ref().map(|n| n.value));
-        let control = run.control.map(|(label, x)| (label.as_str(), x));
+        let controls: Vec<_> = run.controls.iter().map(|(label, x)| (label.as_str(), x)).collect();
         let code = [&spec.setup, &spec.stop].map(|t| t.as_ref().map(|t| t.as_str()));
-        format!("{set:?} {control:?} {press:?} {length:?} {code:?}")
+        format!("{set:?} {controls:?} {press:?} {length:?} {code:?}")
     });
     let labs = format!("{:?} {} {:?} {:?}", lab.span, scene.scene.model.identity(), lab.key, lab.controller);
     format!("{labs} {of_run:?} {numerics:?} {texts:?}")
@@ -98,8 +106,12 @@ pub(super) fn prepare_run<'r>(
     let start = Start { key: lab.keyframe(), plan, budget: Budget { left: stage.left() } };
     let mut session = Session::start(bound.scene.programs.clone(), &bound.scene.model, start);
     let mut refuse_at = |place: Range<usize>, e: RunError| {
-        let message = format!("the run {} cannot be made: {e}", named(run.name));
-        findings.push(Finding::error(rules::RUN_IMPOSSIBLE, place, message));
+        let message = format!("the run {} cannot be made: {}", named(run.name), e.message);
+        let finding = Finding::error(rules::RUN_IMPOSSIBLE, place, message);
+        findings.push(match e.help {
+            Some(help) => finding.help(help),
+            None => finding,
+        });
     };
     set(&mut session, bound, run).map_err(|(at, e)| refuse_at(at, e)).ok()?;
     let mut press = Vec::new();
@@ -112,7 +124,7 @@ pub(super) fn prepare_run<'r>(
         steps = spec.steps.as_ref().map(|n| (n.value.max(0.0) / numerics.timestep).round() as usize);
     }
     if let Some(setup) = &run.setup {
-        session.run_statements(&setup.program, setup.text);
+        session.run_statements(&setup.program, &setup.text);
     }
     session.perturb(*numerics, false);
     let mut refuse = |e: RunError| refuse_at(place.clone(), e);
@@ -121,7 +133,7 @@ pub(super) fn prepare_run<'r>(
     run::presses_within(programs, &press, count, timestep).map_err(&mut refuse).ok()?;
     // A shorter timestep takes more steps. The work is limited separately.
     if count as f64 * numerics.timestep > MAX_VERIFY_STEPS as f64 {
-        refuse(RunError(format!(
+        refuse(RunError::new(format!(
             "it takes {count} steps, but a verified run may take at most {MAX_VERIFY_STEPS}"
         )));
         return None;
@@ -146,7 +158,7 @@ pub(super) fn play<'r>(
         sample(session, made);
         let Some(stop) = run.stop.as_ref() else { return ControlFlow::Continue(()) };
         session.context.watch(watch.take());
-        let holds = session.evaluate(&stop.program, stop.text);
+        let holds = session.evaluate(&stop.program, &stop.text);
         watch = session.context.watch(None);
         let nan =
             matches!(holds, Some(Value::Undefined)) || matches!(holds, Some(Value::Number(x)) if x.is_nan());
@@ -170,8 +182,14 @@ fn make(
 ) -> Option<RunResult> {
     let RunRequest { run, measures, .. } = request;
     let mut ready = prepare_run(request, stage, findings)?;
-    let mut running: Vec<Measure<'_>> = measures.iter().map(|m| Measure::new(&m.program, m.text)).collect();
-    play(request, &mut ready, |session, _| running.iter_mut().for_each(|m| m.sample(session)));
+    let mut running: Vec<Measure<'_>> = measures.iter().map(|m| Measure::new(&m.program, &m.text)).collect();
+    let mut solved = false;
+    play(request, &mut ready, |session, _| {
+        running.iter_mut().for_each(|m| m.sample(session));
+        // A step of RK4 solves at several states, of which the data keep one.
+        let world = &session.world;
+        solved |= world.data.fields().nefc > 0 || world.model.opt.integrator == integrator::RK4;
+    });
     let open = ready.open;
     let mut session = ready.session;
     stage.spend(session.spent());
@@ -182,7 +200,9 @@ fn make(
     }
     Some(RunResult {
         values,
+        end: session.world.data.time(),
         warnings: session.warnings.iter().map(|w| w.number).sum(),
+        solved,
         broke: describe_breakdown(&session).or_else(|| open.map(undecided_stop)),
         has_uncoupled_change: session.has_uncoupled_change() || request.scene.scene.has_uncoupled_change,
     })
@@ -206,11 +226,11 @@ fn set(
         let one = [(label.value.clone(), scalar(v))];
         run::set_controls(session, lab, programs, &one).map_err(|e| (at, e))?;
     }
-    if let Some((label, x)) = run.control {
+    for (label, value) in &run.controls {
         match programs.control(&label.value).filter(|_| run.freely) {
-            Some((i, _)) => session.set_control(i, Value::Number(x)),
+            Some((i, _)) => session.set_control(i, value.clone()),
             None => {
-                let one = [(label.value.clone(), Value::Number(x))];
+                let one = [(label.value.clone(), value.clone())];
                 run::set_controls(session, lab, programs, &one).map_err(|e| (label.span(), e))?;
             }
         }
@@ -225,7 +245,7 @@ pub(super) fn started_models(bound: &BoundScene<'_>, run: &BoundRun<'_>) -> Opti
     let mut session = Session::start(scene.programs.clone(), &scene.model, start);
     set(&mut session, bound, run).ok()?;
     if let Some(setup) = &run.setup {
-        session.run_statements(&setup.program, setup.text);
+        session.run_statements(&setup.program, &setup.text);
     }
     Some(session.world.model)
 }
@@ -269,7 +289,7 @@ pub(super) fn states(scene: &BoundScene<'_>, run: &BoundRun<'_>, field: FieldId)
     let writes = |e: &Effects| e.writes.iter().any(|a| a.field.0 as usize == field.index());
     let programs = &scene.scene.programs;
     let set = run.spec.iter().flat_map(|r| &r.set).map(|(label, _)| label);
-    let mut set = set.chain(run.control.map(|(label, _)| label));
+    let mut set = set.chain(run.controls.iter().map(|(label, _)| *label));
     let setups = run.setup.iter().map(|s| &s.program).chain(programs.setup.iter().map(|b| &b.program));
     set.any(|label| programs.effects_of(&label.value).is_some_and(writes))
         || setups.map(Program::effects).any(writes)

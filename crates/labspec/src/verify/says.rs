@@ -3,8 +3,11 @@
 use super::quote_checker::{Quote, QuoteChecker, QuotedValue, check_number, check_words};
 use super::{column, quote};
 use crate::finding::Finding;
+use crate::printable::counted;
 use crate::rules;
+use crate::source::Text;
 use crate::spec::{Question, Said, Verify};
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// Checks all quotes of a `verify` object. `question` is the question that contains it, or `None` if it belongs to a lab.
@@ -32,8 +35,10 @@ fn check_line(
     findings: &mut Vec<Finding>,
 ) -> Vec<Quote> {
     let at = quote::places_of_quote(&quoted.quote, question, checker.rendered);
+    let exprs: Vec<Cow<'_, Text>> =
+        quoted.exprs.iter().flat_map(|expr| checker.bound.numbers_of_quote(expr)).collect();
     let mut given = Vec::new();
-    for expr in &quoted.exprs {
+    for expr in &exprs {
         match QuotedValue::measure(checker, expr, findings) {
             Ok(found) => given.push((expr, found)),
             Err(reason) => return vec![Quote::unclear(&quoted.quote, &reason)],
@@ -42,12 +47,15 @@ fn check_line(
     let numbers = given.iter().filter(|(_, given)| !given.is_condition()).count();
     // With one expression, it belongs to the number that the quote states. With words and numbers, every number must be
     // checked.
-    let parts = match quoted.exprs.as_slice() {
+    let parts = match exprs.as_slice() {
         [_] if numbers == 1 => vec![quote::whole(quoted.quote.as_str())],
         _ => quote::parts(quoted.quote.as_str(), numbers),
     };
     if parts.len() != numbers {
-        let message = format!("the quote has {} numbers, but {numbers} expressions give one", parts.len());
+        let [printed, given] =
+            [(parts.len(), "number"), (numbers, "expression")].map(|(n, one)| counted(n, one));
+        let verb = if numbers == 1 { "gives" } else { "give" };
+        let message = format!("the quote has {printed}, but {given} {verb} one");
         findings.push(
             Finding::error(rules::QUOTE_UNCLEAR, quoted.quote.span(), message.clone())
                 .why("nothing was compared, because it is unclear which expression belongs to which number")

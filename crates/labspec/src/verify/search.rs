@@ -277,7 +277,7 @@ fn holds(
         return Some(Ok(TriedValue { holds: false, margin: None }));
     }
     if let Some(undecided) = found.undecided {
-        return Some(Err(undecided.part));
+        return Some(Err(undecided.part_of(&find.holds)));
     }
     if !bound.is_condition(&found, &find.holds, findings) {
         return None;

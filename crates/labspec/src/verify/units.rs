@@ -3,6 +3,7 @@
 use super::bound::BoundVerify;
 use super::bound_run::{BoundRun, BoundScene};
 use super::compiled_claim::{ClaimInputs, CompiledClaim};
+use super::layout::name_of_axis;
 use super::measure_units::MeasureUnits;
 use super::outcome::MeasuredRuns;
 use super::outcome_names::OutcomeNames;
@@ -10,6 +11,7 @@ use super::run_cache::BoundLab;
 use crate::bind::Scope;
 use crate::bind::{given, given_by};
 use crate::source::Text;
+use crate::spec::SweepAxis;
 use labspec_bind::units;
 use labspec_expr::Compiler;
 use labspec_expr::dimension::{BASES, Dimension, Measure};
@@ -39,6 +41,15 @@ pub(super) fn of_claim(bound: &BoundVerify<'_>, outcome: &MeasuredRuns, text: &T
         Measure::Known(dimension) if !nothing(&dimension) => Some(dimension),
         Measure::Known(dimension) => by_scale(bound, outcome, &claim, units).or(Some(dimension)),
         _ => by_scale(bound, outcome, &claim, units),
+    }
+}
+
+/// The unit of a measure of a run; `None` where it has none, or is not certain.
+pub(super) fn of_measure(bound: &BoundVerify<'_>, run: usize, measure: usize) -> Option<String> {
+    let (_, measure) = bound.units()?.runs.get(run)?.get(measure)?;
+    match measure {
+        Measure::Known(d) if !d.is_number() && !d.factor.is_nan() => Some(units::written(d)),
+        _ => None,
     }
 }
 
@@ -89,32 +100,42 @@ fn by_scale(
     Some(all)
 }
 
-/// The dimension of the values of a sweep, with the name by which conditions read them.
-fn swept(run: &BoundRun<'_>, scene: &BoundScene<'_>) -> Option<(String, Measure)> {
-    let what = &run.spec?.sweep.as_ref()?.what;
+/// The dimensions of the values of a sweep, with the names by which conditions read them.
+fn swept(run: &BoundRun<'_>, scene: &BoundScene<'_>) -> Vec<(String, Measure)> {
+    let axes = run
+        .spec
+        .and_then(|spec| spec.sweep.as_ref())
+        .filter(|sweep| sweep.is_list())
+        .map_or(&[][..], |sweep| &sweep.axes);
+    let of_axis = |(i, axis): (usize, &SweepAxis)| Some((name_of_axis(i), of_axis(run, scene, &axis.what)?));
+    axes.iter().enumerate().filter_map(of_axis).collect()
+}
+
+/// The dimension of the values of one axis of a sweep.
+fn of_axis(run: &BoundRun<'_>, scene: &BoundScene<'_>, what: &Text) -> Option<Measure> {
     let lab = &scene.scene.lab;
-    let measure =
-        match lab.controls.iter().find(|c| run.control.is_some() && c.label.as_str() == what.as_str()) {
-            Some(control) => match given_by(control) {
-                Measure::Unknown => {
-                    let names = scene.names(Scope::Measure);
-                    let mut globals = scene.globals.clone();
-                    let set = control.action()?.set.as_ref()?;
-                    let given = given(lab, &scene.scene.model, &scene.scene.programs);
-                    let field = Compiler::new(&names, &mut globals).expression(&set.value).program?;
-                    field.measured(&names, &given).value
-                }
-                measure => measure,
-            },
-            None => Measure::Known(units::parse(match what.as_str().rsplit(' ').next()? {
-                "timestep" => "s",
-                "mass" => "kg",
-                "size" | "pos" => "m",
-                "density" => "kg/m^3",
-                _ => return None,
-            })?),
-        };
-    Some(("value".to_string(), measure))
+    let is_control = run.controls.iter().any(|(label, _)| label.as_str() == what.as_str());
+    let measure = match lab.controls.iter().find(|c| is_control && c.label.as_str() == what.as_str()) {
+        Some(control) => match given_by(control) {
+            Measure::Unknown => {
+                let names = scene.names(Scope::Measure);
+                let mut globals = scene.globals.clone();
+                let set = control.action()?.set.as_ref()?;
+                let given = given(lab, &scene.scene.model, &scene.scene.programs);
+                let field = Compiler::new(&names, &mut globals).expression(&set.value).program?;
+                field.measured(&names, &given).value
+            }
+            measure => measure,
+        },
+        None => Measure::Known(units::parse(match what.as_str().rsplit(' ').next()? {
+            "timestep" => "s",
+            "mass" => "kg",
+            "size" | "pos" => "m",
+            "density" => "kg/m^3",
+            _ => return None,
+        })?),
+    };
+    Some(measure)
 }
 
 fn of_scene(scene: &BoundScene<'_>) -> Vec<(String, Measure)> {

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const AMBIGUOUS_DEFAULT: &Rule = &Rule {
     code: "ambiguous-default",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "an expression mixes `??` with `||` or `&&` without brackets",
     why: "JavaScript rejects it, because it has two possible meanings",

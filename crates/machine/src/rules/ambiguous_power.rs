@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const AMBIGUOUS_POWER: &Rule = &Rule {
     code: "ambiguous-power",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "a sign is directly before the base of `**`",
     why: "JavaScript rejects it, because it has two possible values",

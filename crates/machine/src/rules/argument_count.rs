@@ -4,6 +4,10 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const ARGUMENT_COUNT: &Rule = &Rule {
     code: "argument-count",
     severity: Severity::Error,
+    exceptions: &[(
+        Severity::Warning,
+        "if the call still runs: an argument is ignored, or a function of the lesson gets `undefined`",
+    )],
     layer: Layer::Program,
     summary: "a function gets too few or too many arguments",
     why: "JavaScript passes undefined for a missing argument and ignores an extra one",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const ASSIGN_ARRAY: &Rule = &Rule {
     code: "assign-array",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "an assignment replaces a whole array instead of one element",
     why: "JavaScript throws, or replaces the field, and the model never sees the new values",

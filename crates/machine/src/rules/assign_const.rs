@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const ASSIGN_CONST: &Rule = &Rule {
     code: "assign-const",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "a name declared with `const` is assigned again",
     why: "JavaScript throws",

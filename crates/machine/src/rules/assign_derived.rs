@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const ASSIGN_DERIVED: &Rule = &Rule {
     code: "assign-derived",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "an assignment writes a computed field",
     why: "the field is computed again, so the stored value is lost",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const ASSIGN_INSIDE: &Rule = &Rule {
     code: "assign-inside",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "an expression contains `=`",
     why: "`=` stores a value; a comparison was probably meant",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const ASSIGN_STRUCTURE: &Rule = &Rule {
     code: "assign-structure",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "an assignment writes a size, a type or an address",
     why: "the compiled model fixes it: a run would read memory that does not exist",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const BAD_CHARACTER: &Rule = &Rule {
     code: "bad-character",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "a character has no meaning in the language",
     why: "JavaScript rejects the whole text",

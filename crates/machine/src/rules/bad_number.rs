@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const BAD_NUMBER: &Rule = &Rule {
     code: "bad-number",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "a number is malformed",
     why: "JavaScript rejects the whole text",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const HOST_CALL: &Rule = &Rule {
     code: "call-failed",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "a called function fails",
     why: "JavaScript throws and stops the whole text",

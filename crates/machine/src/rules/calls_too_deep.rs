@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const CALL_DEPTH: &Rule = &Rule {
     code: "calls-too-deep",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "function calls are nested too deeply",
     why: "JavaScript throws when its stack is full",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const CHAINED_COMPARISON: &Rule = &Rule {
     code: "chained-comparison",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "an expression chains two comparisons",
     why: "the second comparison compares a truth value: `0 < 5 < 3` is true",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const COMPARE_NAN: &Rule = &Rule {
     code: "compare-nan",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "an expression compares with NaN",
     why: "NaN equals nothing, not even itself",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const DECIMAL_COMMA: &Rule = &Rule {
     code: "decimal-comma",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "a number has a decimal comma",
     why: "a comma separates values; the decimal separator is a point",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const DECLARED_WITHOUT_VALUE: &Rule = &Rule {
     code: "declared-without-value",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "a `const` or a pattern has no value",
     why: "the name can never change, so it needs its value at once",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const DO_WITHOUT_WHILE: &Rule = &Rule {
     code: "do-without-while",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "a `do` loop has no `while`",
     why: "nothing says when the loop ends",

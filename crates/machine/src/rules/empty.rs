@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const EMPTY: &Rule = &Rule {
     code: "empty",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "the expression is empty",
     why: "a computation with it gives NaN",

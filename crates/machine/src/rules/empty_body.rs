@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const EMPTY_BODY: &Rule = &Rule {
     code: "empty-body",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "a `;` directly follows the head of a condition or a loop",
     why: "the condition decides nothing: the code that follows always runs",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const EXPRESSION_ONLY: &Rule = &Rule {
     code: "expression-only",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "a statement is used where only an expression is allowed",
     why: "JavaScript rejects the whole text",

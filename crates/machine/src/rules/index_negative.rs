@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const INDEX_NEGATIVE: &Rule = &Rule {
     code: "index-negative",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "an index is negative",
     why: "JavaScript gives undefined: indexes count from 0, never from the end",

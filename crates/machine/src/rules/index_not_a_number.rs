@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const INDEX_KIND: &Rule = &Rule {
     code: "index-not-a-number",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "an index is not a number",
     why: "JavaScript gives undefined, and a computation with it gives NaN",

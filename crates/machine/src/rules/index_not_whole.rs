@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const INDEX_FRACTION: &Rule = &Rule {
     code: "index-not-whole",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "an index is not an integer",
     why: "JavaScript gives undefined, and a computation with it gives NaN",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const INDEX_RANGE: &Rule = &Rule {
     code: "index-out-of-range",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "an index is past the last element",
     why: "JavaScript gives undefined, and a computation with it gives NaN",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const LONE_DECLARATION: &Rule = &Rule {
     code: "lone-declaration",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "a declaration is the only statement of a condition or a loop",
     why: "the name would disappear at once; JavaScript rejects it",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const LOOP_WITHOUT_CONST: &Rule = &Rule {
     code: "loop-without-const",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "the variable of a `for … of` loop is not declared",
     why: "it would become a global variable of every text",

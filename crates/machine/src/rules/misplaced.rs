@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const MISPLACED: &Rule = &Rule {
     code: "misplaced",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "a token is in a place where it is not allowed",
     why: "JavaScript rejects the whole text",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const MISSING_BRACKET: &Rule = &Rule {
     code: "missing-bracket",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "an opening bracket is missing",
     why: "JavaScript rejects the whole text: conditions need parentheses, function bodies need braces",

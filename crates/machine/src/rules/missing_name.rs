@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const MISSING_NAME: &Rule = &Rule {
     code: "missing-name",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "a name or a key is missing",
     why: "JavaScript rejects the whole text",

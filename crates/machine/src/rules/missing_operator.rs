@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const MISSING_OPERATOR: &Rule = &Rule {
     code: "missing-operator",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "two values have no operator between them",
     why: "the operation is unknown: a product needs its `*`",

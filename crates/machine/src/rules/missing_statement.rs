@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const MISSING_STATEMENT: &Rule = &Rule {
     code: "missing-statement",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "a condition or a loop has no body",
     why: "JavaScript rejects the whole text",

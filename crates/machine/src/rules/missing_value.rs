@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const MISSING_VALUE: &Rule = &Rule {
     code: "missing-value",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "a value is missing",
     why: "JavaScript rejects the whole text",

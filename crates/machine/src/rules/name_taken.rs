@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const NAME_TAKEN: &Rule = &Rule {
     code: "name-taken",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "a declaration reuses a name that already has a meaning",
     why: "JavaScript rejects it, or the new name hides the one that a reader expects",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const UNREACHABLE: &Rule = &Rule {
     code: "never-reached",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "a statement follows a `return`, a `break` or a `continue`",
     why: "the statement never runs",

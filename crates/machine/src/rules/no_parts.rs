@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const NO_PARTS: &Rule = &Rule {
     code: "no-parts",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "an expression reads a member or an element of a value that has none",
     why: "JavaScript throws and stops the whole text",

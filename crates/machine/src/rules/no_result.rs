@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const NO_RESULT: &Rule = &Rule {
     code: "no-result",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "an expression uses the result of a function that returns nothing",
     why: "the result is undefined, and a computation with it gives NaN",

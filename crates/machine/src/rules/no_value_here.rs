@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const NO_VALUE_HERE: &Rule = &Rule {
     code: "no-value-here",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "an expression uses `value` where no control provides one",
     why: "the name does not exist there, so JavaScript throws",

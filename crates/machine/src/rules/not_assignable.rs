@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const NOT_ASSIGNABLE: &Rule = &Rule {
     code: "not-assignable",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "the left side of `=` cannot hold a value",
     why: "JavaScript rejects the whole text, or stores nothing",

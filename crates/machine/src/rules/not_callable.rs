@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const NOT_CALLABLE: &Rule = &Rule {
     code: "not-callable",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "an expression calls something that is not a function",
     why: "JavaScript throws",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const NOT_INDEXABLE: &Rule = &Rule {
     code: "not-indexable",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "an index follows a value that has no elements",
     why: "JavaScript gives undefined, and a computation with it gives NaN",

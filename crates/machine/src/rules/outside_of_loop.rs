@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const OUTSIDE_LOOP: &Rule = &Rule {
     code: "outside-of-loop",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "`break` or `continue` is outside a loop",
     why: "there is no loop to leave or to continue",

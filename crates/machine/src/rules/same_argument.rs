@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const SAME_ARGUMENT: &Rule = &Rule {
     code: "same-argument",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "a length, a maximum or a minimum takes the same number twice",
     why: "an index was copied and not changed: the length of a velocity uses x twice and y never",

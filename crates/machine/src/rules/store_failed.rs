@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const HOST_STORE: &Rule = &Rule {
     code: "store-failed",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "the model rejects a stored value",
     why: "nothing is stored, and the page shows no error",

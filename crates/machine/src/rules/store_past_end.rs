@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const STORE_PAST_END: &Rule = &Rule {
     code: "store-past-end",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "an assignment writes an element past the end",
     why: "nothing is stored, and the page shows no error",

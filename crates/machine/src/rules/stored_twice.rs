@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const STORED_TWICE: &Rule = &Rule {
     code: "stored-twice",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "an element is stored twice in a row",
     why: "the value of the first statement is lost: one of the two indexes is probably wrong",

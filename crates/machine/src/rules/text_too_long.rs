@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const TEXT_TOO_LONG: &Rule = &Rule {
     code: "text-too-long",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "a string grows beyond the limit",
     why: "without a limit the page could hang",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const TOO_DEEP: &Rule = &Rule {
     code: "too-deep",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "an expression is nested too deeply",
     why: "limits keep the page responsive for any input",

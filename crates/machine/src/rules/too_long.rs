@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const TOO_LONG: &Rule = &Rule {
     code: "too-long",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "the source text is too long",
     why: "limits keep the page responsive for any input",

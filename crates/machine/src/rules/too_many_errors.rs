@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const TOO_MANY_ERRORS: &Rule = &Rule {
     code: "too-many-errors",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "a text has so many mistakes that the rest is skipped",
     why: "the first mistakes explain most of the others",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const BUDGET: &Rule = &Rule {
     code: "too-many-steps",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "a loop or a recursion does not end within the step budget",
     why: "without a budget the page would hang",

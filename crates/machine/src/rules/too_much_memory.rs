@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const MEMORY: &Rule = &Rule {
     code: "too-much-memory",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "lists and records take too much memory",
     why: "without a limit the page could hang",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const UNCLOSED: &Rule = &Rule {
     code: "unclosed",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "a bracket is not closed",
     why: "JavaScript rejects the whole text",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const UNCLOSED_COMMENT: &Rule = &Rule {
     code: "unclosed-comment",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "a comment is not closed",
     why: "everything that follows is read as part of the comment",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const UNKNOWN_FIELD: &Rule = &Rule {
     code: "unknown-field",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "an object has no member of this name",
     why: "JavaScript gives undefined, and a computation with it gives NaN",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const UNKNOWN_FUNCTION: &Rule = &Rule {
     code: "unknown-function",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "a call names an unknown function",
     why: "JavaScript throws",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const UNKNOWN_NAME: &Rule = &Rule {
     code: "unknown-name",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "a name is not defined",
     why: "JavaScript throws",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const UNKNOWN_OBJECT: &Rule = &Rule {
     code: "unknown-object",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "the model has no object of this name",
     why: "JavaScript throws",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const UNOPENED: &Rule = &Rule {
     code: "unopened",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "a closing bracket has no opening bracket",
     why: "JavaScript rejects the whole text",

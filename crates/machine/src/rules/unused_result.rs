@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const UNUSED_RESULT: &Rule = &Rule {
     code: "unused-result",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "a statement has no effect",
     why: "it computes a value and discards it",

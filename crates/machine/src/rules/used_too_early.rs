@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const USED_TOO_EARLY: &Rule = &Rule {
     code: "used-too-early",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "a local name is used before its declaration",
     why: "JavaScript throws",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const XOR_AS_POWER: &Rule = &Rule {
     code: "xor-as-power",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Program,
     summary: "`^` is used between numbers",
     why: "`^` is the bitwise exclusive or, not a power: `3 ^ 2` is 1",

@@ -95,7 +95,7 @@ impl OtherRecording {
     ) -> Result<Beside, RunError> {
         let same = |k: usize, t: f64| (t - k as f64 * case.interval).abs() <= 1e-9 * (1.0 + t);
         if self.times.len() != case.count + 1 || !self.times.iter().enumerate().all(|(k, &t)| same(k, t)) {
-            return Err(RunError(format!(
+            return Err(RunError::new(format!(
                 "the recording has other times; record it at {} times, {} s apart, starting at 0",
                 case.count + 1,
                 labspec::verify::significant(case.interval)
@@ -104,7 +104,9 @@ impl OtherRecording {
         let mut places = Vec::new();
         for target in targets {
             let place = self.traces.iter().position(|t| *t == target.label);
-            places.push(place.ok_or_else(|| RunError(format!("the recording has no \"{}\"", target.label)))?);
+            places.push(
+                place.ok_or_else(|| RunError::new(format!("the recording has no \"{}\"", target.label)))?,
+            );
         }
         let rows = self.runs.iter().map(|run| {
             let values = places.iter().map(|&i| run.values[i].clone()).collect();

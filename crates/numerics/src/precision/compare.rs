@@ -118,11 +118,11 @@ fn prepare(case: &mut PrecisionCase<'_>, options: &PrecisionOptions) -> Result<L
             }
             None => "; add a plot with a trace, or a readout".to_string(),
         };
-        return Err(RunError(format!("this lab displays no numbers to compare{why}")));
+        return Err(RunError::new(format!("this lab displays no numbers to compare{why}")));
     }
     case.presses = run::presses(case.programs, &options.press)?;
     if let Some(subject) = case.program_that_sets_timestep() {
-        return Err(RunError(format!(
+        return Err(RunError::new(format!(
             "{} sets the timestep while the lab runs, so no other timestep can be tested",
             labspec::report::printable(&subject)
         )));

@@ -43,7 +43,7 @@ impl Ladder {
         let longest = STEPS.into_iter().find(fits).unwrap_or(1.0);
         let count = run::count_steps(lab, Some(length), None, timestep * longest)?.max(1);
         if count as f64 * (longest / STEPS[5]) > run::MAX_STEPS as f64 {
-            return Err(RunError("the runs would take too many steps; shorten them with --until".into()));
+            return Err(RunError::new("the runs would take too many steps; shorten them with --until"));
         }
         Ok(Ladder { timestep, integrator, longest, count, length })
     }

@@ -66,7 +66,7 @@ fn read(model: &Model, programs: &Programs, text: &str, access: &mut AccessSet) 
         Some(program) => include(program.effects(), access),
         None => {
             let why = compiled.diagnostics.first().map_or(String::new(), |d| format!(": {}", d.message));
-            return Err(RunError(format!(
+            return Err(RunError::new(format!(
                 "`{text}` is not a field of the data, a sensor or an expression{why}"
             )));
         }

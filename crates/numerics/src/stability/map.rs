@@ -89,7 +89,7 @@ fn values(case: &StressCase<'_>, label: &str) -> Result<(usize, Vec<Value>), Run
             let step = control.step().filter(|s| *s > 0.0).unwrap_or((max - min) / 100.0);
             let most = ((max - min) / step + 1e-9).floor();
             if !(most.is_finite() && most >= 0.0) {
-                return Err(RunError(format!("\"{label}\" has no values to choose from")));
+                return Err(RunError::new(format!("\"{label}\" has no values to choose from")));
             }
             let places = (0..VALUES).map(|k| (most * k as f64 / (VALUES - 1) as f64).round());
             let mut list: Vec<f64> =
@@ -99,7 +99,7 @@ fn values(case: &StressCase<'_>, label: &str) -> Result<(usize, Vec<Value>), Run
         }
         ControlKind::Select { options, .. } => options.iter().take(MOST).map(|o| scalar(&o.value)).collect(),
         ControlKind::Button { .. } => {
-            return Err(RunError(format!("\"{label}\" is a button: a map needs sliders and selects")));
+            return Err(RunError::new(format!("\"{label}\" is a button: a map needs sliders and selects")));
         }
     };
     Ok((i, list))

@@ -7,7 +7,7 @@ use super::sensitivity::{self, Sensitivity};
 use labspec::bind::Programs;
 use labspec::interrupt;
 use labspec::run::{self, RunError};
-use labspec::spec::{Expect, Lab};
+use labspec::spec::Lab;
 use labspec::stress::{
     FaultGroup, FaultKind, Interaction, InteractionKind, StressCase, add_fault, list_interactions, window,
     without_pushed_bodies,
@@ -138,7 +138,7 @@ pub fn probe(
     }
     let (groups, work_per_second) = run_interactions(&case, &interactions, &mut report, report_progress);
     report.tried.retain(|t| t.made + t.cut + t.skipped > 0);
-    let expects_breaks = matches!(lab.expect, Some(Expect::Breaks(_)));
+    let expects_breaks = lab.expect.is_some();
     let breaks = |kind| matches!(kind, FaultKind::Diverges | FaultKind::Grows | FaultKind::Silent);
     let finding = |group: FaultGroup| {
         let expected = expects_breaks && breaks(group.fault.kind);

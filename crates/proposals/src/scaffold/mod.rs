@@ -2,25 +2,47 @@
 //!
 //! | stage | module |
 //! |---|---|
+//! | factors and shares in words: four times, a third | `factors` |
 //! | the relation that the words of an option state: same, more, twice, gone | `relation` |
-//! | the two runs that a question compares | `pairs` |
-//! | the measure that distinguishes the options, and its values | `choose` |
+//! | the runs that a question compares: the control that it names, before and after, and other settings that it states | `change` |
+//! | the measures that the quantity in question can mean | `quantity` |
+//! | the options that runs and measures decide | `decision` |
+//! | the text of a question | `question` |
+//! | questions with one right option | `choose` |
+//! | options that are objects, values, changes or quantities | `objects` |
+//! | statements, and questions with several right options | `statement` |
+//! | questions with a number | `numeric` |
 //! | the objects, inserted into the lesson | this module |
 //!
-//! Every proposal was run, and is checked again as part of the lesson. The measure is selected by the words of the question,
-//! independent of its key. If the runs support another option, this is reported, and nothing is proposed.
+//! Every proposal was run, and is checked again as part of the lesson. The runs and the measure are selected by the words of the
+//! question, independent of its key. If the question does not name them, there is only a skeleton for the author. If the runs support
+//! another option, this is reported, and nothing is proposed.
 
+mod change;
 mod choose;
-mod pairs;
+mod decision;
+mod factors;
+mod numeric;
+mod objects;
+mod outcome;
+mod quantity;
+mod question;
 mod relation;
+mod statement;
+mod words;
 
 use crate::trace::{self, Origin, ProposedVerify, TracedLab, Traces, trace};
-use choose::MeasureChoice;
+
+use decision::Decision;
 use labspec::bind::scene::Models;
 use labspec::check::{self, CheckLevel};
 use labspec::lint::reload_lesson;
+use labspec::source::Text;
 use labspec::spec::{ChoiceStyle, LabAddress, Lesson, Question, QuestionKind};
-use labspec::verify::{RunCache, Verdict};
+use labspec::verify::{RunCache, Stated, Verdict, significant};
+use outcome::OF_TRACE;
+pub use outcome::ScaffoldOutcome;
+use question::{QuestionText, Undecided};
 use std::ops::Range;
 
 /// A question or a lab without a claim, and the result.
@@ -28,35 +50,12 @@ use std::ops::Range;
 pub struct Scaffold {
     /// `quiz drop, question 2`, `lab #1`.
     pub name: String,
+    /// `drop.2`, `#1`.
+    pub address: String,
     /// The span of its object in the file, including braces.
     pub span: Range<usize>,
     /// The result.
     pub found: ScaffoldOutcome,
-}
-
-/// The result for a question or a lab.
-#[derive(Clone, Debug)]
-pub enum ScaffoldOutcome {
-    /// A proposed object.
-    Proposed {
-        /// The object.
-        verify: ProposedVerify,
-        /// The names of the measures in the object, and their values.
-        values: Vec<(String, f64)>,
-        /// Options, counted from 1, that the runs do not decide.
-        undecided: Vec<usize>,
-        /// The verdict of a check; `None` for a lab, whose object contains only quotes.
-        verdict: Option<(Verdict, String)>,
-    },
-    /// The runs support another option than the key.
-    Contradicted {
-        /// The option, from 0.
-        option: usize,
-        /// The measures and their values.
-        values: Vec<(String, f64)>,
-    },
-    /// Nothing could be proposed, for this reason.
-    Open(String),
 }
 
 /// Processes every question and lab of a lesson without claims. `report_progress` receives descriptions
@@ -79,7 +78,8 @@ pub fn scaffold(lesson: &Lesson, models: &Models, report_progress: &mut dyn FnMu
                 "no number of the text comes from this lab, so there is nothing to quote".into(),
             ),
         };
-        all.push(Scaffold { name: format!("lab {address}"), span: lab.span.clone(), found });
+        let (name, address) = (format!("lab {address}"), address.to_string());
+        all.push(Scaffold { name, address, span: lab.span.clone(), found });
     }
     for quiz in &lesson.quizzes {
         let id = quiz.id.as_ref().map_or("", |t| t.as_str());
@@ -96,7 +96,8 @@ pub fn scaffold(lesson: &Lesson, models: &Models, report_progress: &mut dyn FnMu
                 ),
                 None => propose(lesson, question, &found, &stage),
             };
-            all.push(Scaffold { name, span: question.span.clone(), found });
+            let address = format!("{id}.{number}");
+            all.push(Scaffold { name, address, span: question.span.clone(), found });
         }
     }
     judge(lesson, models, &mut all);
@@ -110,44 +111,66 @@ fn propose(
     found: &Traces<'_>,
     stage: &RunCache<'_>,
 ) -> ScaffoldOutcome {
-    match &question.kind {
-        QuestionKind::Choice { style: ChoiceStyle::Multiple, .. } | QuestionKind::TrueFalse { .. } => {
-            ScaffoldOutcome::Open(
-                "proposals are for questions with one correct option and for numbers".into(),
-            )
+    let none: &[Text] = &[];
+    let (options, is_single) = match &question.kind {
+        QuestionKind::Choice { options, style, .. } => (options.as_slice(), *style != ChoiceStyle::Multiple),
+        QuestionKind::TrueFalse { .. } => (none, false),
+        QuestionKind::Numeric { .. } => {
+            return numeric::numeric(question, found, &labs(question, found), stage);
         }
-        QuestionKind::Choice { options, .. } => {
-            let Some(key) = question.right_option() else {
-                return ScaffoldOutcome::Open("it has no key".into());
-            };
-            let labs = labs(question, found);
-            if labs.is_empty() {
-                return ScaffoldOutcome::Open(
-                    "there is no lab to run it in: write one under `verify`".into(),
-                );
-            }
-            let numbers: Vec<_> = found.numbers.iter().map(|n| n.stated.clone()).collect();
-            match choose::choose(question, options, &labs, &numbers, stage) {
-                Err(why) => ScaffoldOutcome::Open(why),
-                Ok(choice) if choice.option != key => {
-                    ScaffoldOutcome::Contradicted { option: choice.option, values: choice.values.clone() }
-                }
-                Ok(choice) => proposed(lesson, question, found, choice),
-            }
-        }
-        QuestionKind::Numeric { .. } => numeric(question, found),
-        QuestionKind::Open { .. } => ScaffoldOutcome::Open("an open question has no key".into()),
+        QuestionKind::Open { .. } => return ScaffoldOutcome::Open("an open question has no key".into()),
+    };
+    let key = match is_single {
+        true => question.right_option().map(|option| vec![option]),
+        false => question.keyed(),
+    };
+    let Some(key) = key else { return ScaffoldOutcome::Open("it has no key".into()) };
+    let labs = labs(question, found);
+    if labs.is_empty() {
+        return ScaffoldOutcome::Open("there is no lab to run it in: write one under `verify`".into());
+    }
+    let numbers: Vec<Stated> = found.numbers.iter().map(|n| n.stated.clone()).collect();
+    let asked = QuestionText::new(question, options, &numbers);
+    let decided = match &question.kind {
+        QuestionKind::TrueFalse { .. } => statement::statement(&asked, &labs, stage),
+        _ if is_single => choose::choose(&asked, &labs, stage),
+        _ => statement::several(&asked, &labs, stage),
+    };
+    match decided {
+        Err(Undecided { why, skeleton: None }) => ScaffoldOutcome::Open(why),
+        Err(Undecided { why, skeleton: Some(verify) }) => ScaffoldOutcome::Skeleton { why, verify: *verify },
+        Ok(decision) if decision.holding == key => proposed(lesson, question, found, &decision),
+        Ok(decision) => contradicted(&decision, is_single),
     }
 }
 
-/// The labs of a question: its own, otherwise those of the lesson.
-fn labs<'t, 'l>(question: &Question, found: &'t Traces<'l>) -> Vec<&'t TracedLab<'l>> {
-    let of_question: Vec<&TracedLab<'_>> =
-        found.labs.iter().filter(|t| t.owner.as_ref().is_some_and(|o| *o == question.span)).collect();
-    if !of_question.is_empty() || question.sim().is_some() {
-        return of_question;
+/// The outcome of runs that support another key.
+fn contradicted(decision: &Decision<'_, '_>, is_single: bool) -> ScaffoldOutcome {
+    match decision.holding.as_slice() {
+        [option] if is_single => ScaffoldOutcome::Contradicted { option: *option, values: decision.values() },
+        holding => {
+            let values =
+                decision.values().into_iter().map(|(what, x)| format!("{what} is {}", significant(x)));
+            let values = values.collect::<Vec<_>>().join("; ");
+            let options: Vec<String> = holding.iter().map(|i| (i + 1).to_string()).collect();
+            let held = if options.is_empty() { "none".to_string() } else { options.join(", ") };
+            let why = format!("the runs support another key (conditions that hold: {held}): {values}");
+            ScaffoldOutcome::Open(why)
+        }
     }
-    found.labs.iter().filter(|t| matches!(t.address, LabAddress::Lab(_))).collect()
+}
+
+/// The labs of a question: its own, then those of the lesson, the nearest one before it first.
+fn labs<'t, 'l>(question: &Question, found: &'t Traces<'l>) -> Vec<&'t TracedLab<'l>> {
+    let is_own = |t: &&TracedLab<'_>| t.owner.as_ref().is_some_and(|o| *o == question.span);
+    let mut all: Vec<&TracedLab<'_>> = found.labs.iter().filter(is_own).collect();
+    let mut others: Vec<&TracedLab<'_>> =
+        found.labs.iter().filter(|t| matches!(t.address, LabAddress::Lab(_))).collect();
+    // A lab after the question is shown when it has been answered.
+    let start = question.span.start;
+    others.sort_by_key(|t| (t.lab.span.start > start, t.lab.span.start.abs_diff(start)));
+    all.extend(others);
+    all
 }
 
 /// The object of a question with options.
@@ -155,7 +178,7 @@ fn proposed(
     lesson: &Lesson,
     question: &Question,
     found: &Traces<'_>,
-    choice: MeasureChoice<'_, '_>,
+    choice: &Decision<'_, '_>,
 ) -> ScaffoldOutcome {
     let mut block = ProposedVerify::default();
     let mut values = Vec::new();
@@ -164,15 +187,22 @@ fn proposed(
     for n in found.numbers.iter().filter(|n| question.span.contains(&n.stated.span.start) && !n.stated.answer)
     {
         let Origin::From(hit) = &n.origin else { continue };
-        let Some((lab, trial)) = hit.place else { continue };
+        let Some((lab, trial)) = hit.place.filter(|_| !hit.fragile) else { continue };
         let Some(tried) = found.labs.get(lab).filter(|t| t.address == choice.tried.address) else { continue };
-        let measured = block.measured(trial, tried.trials.get(trial), &hit.measure);
+        // The number of a run whose setting the question does not state equals it by coincidence, and so does another measure.
+        let run = tried.trials.get(trial).filter(|run| choice.has_run(run) && choice.reads(&hit.measure));
+        if run.is_none() {
+            continue;
+        }
+        // Runs of the trace have other places than those of the comparison.
+        let measured = block.traced(OF_TRACE + trial, tried, trial, &hit.measure);
         let line = (n.stated.quote.clone(), format!("{}{measured}", hit.factor));
         if !block.says.contains(&line) {
             block.says.push(line);
         }
     }
-    let is_own_lab = question.sim().is_some() && lesson.lab(&choice.tried.address).is_some();
+    let sim_lab = question.sim().and_then(|_| lesson.lab(&choice.tried.address));
+    let is_own_lab = sim_lab.is_some_and(|lab| question.span.contains(&lab.span.start));
     block.lab = (!is_own_lab).then(|| choice.tried.address.to_string());
     let undecided = conditions.iter().enumerate().filter(|(_, c)| *c == "undecided").map(|(i, _)| i + 1);
     let undecided = undecided.collect();
@@ -180,52 +210,29 @@ fn proposed(
     ScaffoldOutcome::Proposed { verify: block, values, undecided, verdict: None }
 }
 
-/// The object of a question with a numeric answer.
-fn numeric(question: &Question, found: &Traces<'_>) -> ScaffoldOutcome {
-    let QuestionKind::Numeric { answer: Some(answer), .. } = &question.kind else {
-        return ScaffoldOutcome::Open("it has no answer".into());
-    };
-    let tol = question.numeric().map_or(0.0, |(_, tol)| tol);
-    // The answer itself, otherwise a number in the text that equals the answer.
-    let inside = found.numbers.iter().filter(|n| question.span.contains(&n.stated.span.start));
-    let mut near: Vec<_> =
-        inside.filter(|n| n.stated.answer || (n.stated.read.value - answer.value).abs() <= tol).collect();
-    near.sort_by_key(|n| !n.stated.answer);
-    for n in near {
-        let Origin::From(hit) = &n.origin else { continue };
-        let mut verify = ProposedVerify::default();
-        let value = match hit.place {
-            None => format!("{}{}", hit.factor, hit.measure),
-            Some((lab, trial)) => {
-                let Some(tried) = found.labs.get(lab) else { continue };
-                let measured = verify.measured(trial, tried.trials.get(trial), &hit.measure);
-                verify.lab = Some(tried.address.to_string());
-                format!("{}{measured}", hit.factor)
-            }
-        };
-        verify.value = Some(value.clone());
-        let values = vec![(value, hit.value)];
-        return ScaffoldOutcome::Proposed { verify, values, undecided: Vec::new(), verdict: None };
-    }
-    ScaffoldOutcome::Open(
-        "no run of the labs of the lesson, and no formula of the explanation, gives this value".into(),
-    )
-}
-
-/// The lesson with all proposals inserted.
-pub fn written(lesson: &Lesson, all: &[Scaffold]) -> String {
+/// The lesson with objects inserted: all proposals, or those of the named questions and labs, skeletons too.
+pub fn written(lesson: &Lesson, all: &[Scaffold], names: &[String]) -> String {
     let mut text = lesson.file.text().to_string();
     let mut places: Vec<(usize, String)> = Vec::new();
     for one in all {
-        let ScaffoldOutcome::Proposed { verify, .. } = &one.found else { continue };
+        let verify = match &one.found {
+            ScaffoldOutcome::Proposed { verify, .. } if names.is_empty() => verify,
+            ScaffoldOutcome::Proposed { verify, .. } | ScaffoldOutcome::Skeleton { verify, .. }
+                if names.contains(&one.address) =>
+            {
+                verify
+            }
+            _ => continue,
+        };
         let Some(object) = text.get(one.span.clone()) else { continue };
         let Some(inner) = object.strip_suffix('}') else { continue };
         let at = one.span.start + inner.trim_end().len();
         let line = text.get(..one.span.start).and_then(|t| t.rsplit('\n').next()).unwrap_or_default();
         let indent: String = line.chars().take_while(|c| c.is_whitespace()).collect();
+        let step = indentation_step(&text, object, &indent);
         let comma = if inner.trim_end().ends_with([',', '{']) { "" } else { "," };
-        let block = trace::format_verify(verify).replace('\n', &format!("\n{indent} "));
-        places.push((at, format!("{comma}\n{indent} \"verify\": {block}")));
+        let block = indented(&trace::format_verify(verify), &format!("{indent}{step}"), &step);
+        places.push((at, format!("{comma}\n{indent}{step}\"verify\": {block}")));
     }
     places.sort_by_key(|(at, _)| std::cmp::Reverse(*at));
     for (at, block) in places {
@@ -234,15 +241,68 @@ pub fn written(lesson: &Lesson, all: &[Scaffold]) -> String {
     text
 }
 
-/// Checks the proposals as parts of the lesson.
+/// The step of indentation of an object: the first line inside it compared with its own, otherwise that of the lesson.
+fn indentation_step(lesson: &str, object: &str, indent: &str) -> String {
+    let space = |line: &str| line.chars().take_while(|c| c.is_whitespace()).collect::<String>();
+    let inside = object.lines().nth(1).map(space);
+    if let Some(step) =
+        inside.as_deref().and_then(|inside| inside.strip_prefix(indent)).filter(|step| !step.is_empty())
+    {
+        return step.to_string();
+    }
+    // The least indented line of JSON in the lesson.
+    let keys = lesson.lines().filter(|line| line.trim_start().starts_with('"')).map(space);
+    keys.filter(|space| !space.is_empty()).min_by_key(String::len).unwrap_or_else(|| " ".to_string())
+}
+
+/// A text with steps of two spaces, with other steps and below other text.
+fn indented(text: &str, indent: &str, step: &str) -> String {
+    let line = |(i, line): (usize, &str)| {
+        let depth = (line.len() - line.trim_start().len()) / 2;
+        let before = if i == 0 { String::new() } else { format!("{indent}{}", step.repeat(depth)) };
+        format!("{before}{}", line.trim_start())
+    };
+    text.lines().enumerate().map(line).collect::<Vec<_>>().join("\n")
+}
+
+/// Checks the proposals as parts of the lesson. One that does not hold becomes a skeleton.
 fn judge(lesson: &Lesson, models: &Models, all: &mut [Scaffold]) {
-    let text = written(lesson, all);
+    let text = written(lesson, all, &[]);
     let level = CheckLevel { labs: false, ..CheckLevel::FULL };
     let checked = check::check_lesson(reload_lesson(lesson, &text, models.folder()), models, level);
     for one in all {
-        let ScaffoldOutcome::Proposed { verdict, .. } = &mut one.found else { continue };
+        let ScaffoldOutcome::Proposed { verify, verdict, .. } = &mut one.found else { continue };
         let claim = checked.claims.iter().find(|c| c.name == one.name);
-        let answer = claim.and_then(|c| c.judgement.answer.as_ref());
-        *verdict = answer.map(|a| (a.verdict, a.reason.clone()));
+        let Some(answer) = claim.and_then(|c| c.judgement.answer.as_ref()) else {
+            // A lab has no answer; that of a question must have been judged.
+            if verify.value.is_some() || !verify.options.is_empty() {
+                let why = "a check of these conditions has no result".to_string();
+                one.found = ScaffoldOutcome::Skeleton { why, verify: verify.clone() };
+            }
+            continue;
+        };
+        match answer.verdict {
+            Verdict::Verified | Verdict::Computed => *verdict = Some((answer.verdict, answer.reason.clone())),
+            other => {
+                let reason =
+                    if answer.reason.is_empty() { String::new() } else { format!(": {}", answer.reason) };
+                let why = format!("a check of these conditions says {}{reason}", other.as_str());
+                one.found = ScaffoldOutcome::Skeleton { why, verify: verify.clone() };
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn objects_have_the_indentation_of_the_lesson() {
+        let text = "{\n  \"a\": [\n    1\n  ]\n}";
+        assert_eq!(indented(text, "\t", "\t"), "{\n\t\t\"a\": [\n\t\t\t1\n\t\t]\n\t}");
+        assert_eq!(indentation_step("", "{\n    \"q\": 1\n}", ""), "    ");
+        assert_eq!(indentation_step("[\n   \"x\"\n]", "{\"q\": 1}", "    "), "   ");
+        assert_eq!(indentation_step("", "{}", ""), " ");
     }
 }

@@ -1,6 +1,7 @@
 //! The relation that the words of an option state: how a number after a change compares with its value before.
 
-use std::fmt::Write;
+use super::factors::{percent, share, times};
+use super::words::{contains_any, contains_words, place};
 
 /// The relation of a number `b` to a number `a`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,24 +14,42 @@ pub(super) enum Relation {
     Less(Option<f64>),
     /// Larger by this factor.
     Times(f64),
+    /// More than this factor.
+    Above(f64),
+    /// Less than this factor.
+    Below(f64),
     /// It changes by more than half: something falls, slips or flies away.
     Gone,
     /// Approximately zero.
     Nothing,
+    /// It becomes larger, with its sign.
+    Rises,
+    /// It becomes smaller, with its sign.
+    Sinks,
     /// The simulation fails.
     Breaks,
 }
 
+/// The words for more and less of one quantity, which count before the general ones: in "the higher pulse is faster", the speed
+/// is larger.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Directions {
+    pub(super) up: &'static [&'static str],
+    pub(super) down: &'static [&'static str],
+}
+
 /// The relative tolerance for equality.
-const SAME: f64 = 0.02;
+pub(super) const SAME: f64 = 0.02;
 /// The relative tolerance of a stated factor.
 const ABOUT: f64 = 0.1;
 /// The share for "a little".
 const LITTLE_SHARE: f64 = 0.2;
 /// The share for "much less than".
 const MUCH_SHARE: f64 = 0.7;
+/// The factor for "hardly".
+const HARDLY: f64 = 0.1;
 
-const SAME_WORDS: [&str; 14] = [
+const SAME_WORDS: [&str; 25] = [
     "same",
     "nothing changes",
     "nothing measurable",
@@ -39,14 +58,25 @@ const SAME_WORDS: [&str; 14] = [
     "does not change",
     "doesn't change",
     "equal",
+    "equally",
     "no difference",
     "no effect",
     "does not depend",
+    "does not matter",
     "stays",
+    "stay",
+    "remains",
     "nothing happens",
     "nothing",
+    "as before",
+    "just as",
+    "as it was",
+    "as ever",
+    "no longer than before",
+    "no faster than before",
+    "no more than before",
 ];
-const MORE: [&str; 26] = [
+const MORE: [&str; 27] = [
     "later",
     "deeper",
     "farther",
@@ -61,6 +91,7 @@ const MORE: [&str; 26] = [
     "increase",
     "rises",
     "grows",
+    "grow",
     "faster",
     "stronger",
     "steeper",
@@ -74,7 +105,7 @@ const MORE: [&str; 26] = [
     "doubles",
     "louder",
 ];
-const LESS: [&str; 16] = [
+const LESS: [&str; 17] = [
     "earlier",
     "less",
     "lower",
@@ -83,6 +114,7 @@ const LESS: [&str; 16] = [
     "decreases",
     "decrease",
     "shrinks",
+    "shrink",
     "slower",
     "weaker",
     "shallower",
@@ -108,69 +140,101 @@ const ABSENCE_WORDS: [&str; 13] = [
     "escapes",
 ];
 const BREAKS: [&str; 7] = ["refuses", "unstable", "explodes", "diverges", "blows up", "nan", "breaks"];
-const ZERO_WORDS: [&str; 4] = ["zero", "exactly at", "vanishes", "not at all"];
-const FACTORS: [(&str, f64); 12] = [
-    ("four times", 4.0),
-    ("quadruples", 4.0),
-    ("three times", 3.0),
-    ("triples", 3.0),
-    ("ten times", 10.0),
-    ("twice", 2.0),
-    ("doubles", 2.0),
-    ("double", 2.0),
-    ("a quarter", 0.25),
-    ("halves", 0.5),
-    ("half as", 0.5),
-    ("by half", 0.5),
+const ZERO_WORDS: [&str; 11] = [
+    "zero",
+    "exactly at",
+    "vanishes",
+    "not at all",
+    "nothing is left",
+    "nothing remains",
+    "none is left",
+    "all of it is lost",
+    "all is lost",
+    "it is all lost",
+    "disappears",
 ];
-
-/// Whether a text contains words, as whole words.
-pub(super) fn contains_words(text: &str, words: &str) -> bool {
-    let part = |c: char| c.is_alphanumeric();
-    text.match_indices(words).any(|(at, _)| {
-        let before = text.get(..at).and_then(|t| t.chars().next_back());
-        let after = text.get(at + words.len()..).and_then(|t| t.chars().next());
-        !before.is_some_and(part) && !after.is_some_and(part)
-    })
-}
+const HARDLY_WORDS: [&str; 4] = ["hardly", "barely", "almost not", "almost nothing"];
 
 impl Relation {
     /// Reads the relation that an option states, or `None` if its words are unknown.
-    pub(super) fn read(option: &str) -> Option<Relation> {
+    pub(super) fn read(option: &str, directions: Directions) -> Option<Relation> {
         let text = option.to_lowercase();
         // The first statement counts; the rest are reasons and reservations.
-        let first = |list: &[&str]| {
-            let found = list.iter().filter(|w| contains_words(&text, w)).filter_map(|w| text.find(w));
-            found.min().unwrap_or(usize::MAX)
-        };
-        let [same, more, less, gone, nothing] =
-            [&SAME_WORDS[..], &MORE, &LESS, &ABSENCE_WORDS, &ZERO_WORDS].map(first);
-        let percent = percent(&text);
-        if BREAKS.iter().any(|w| contains_words(&text, w)) {
+        let statement = text.split(':').next().unwrap_or(&text);
+        Relation::of_statement(statement, directions).or_else(|| Relation::of_statement(&text, directions))
+    }
+
+    fn of_statement(text: &str, directions: Directions) -> Option<Relation> {
+        if contains_any(text, &BREAKS) {
             return Some(Relation::Breaks);
         }
-        if let Some((_, factor)) = FACTORS.iter().find(|(words, _)| contains_words(&text, words)) {
-            let down = less < more && *factor > 1.0;
-            return Some(Relation::Times(if down { 1.0 / factor } else { *factor }));
+        match text.trim().trim_end_matches('.') {
+            "positive" => return Some(Relation::Rises),
+            "negative" => return Some(Relation::Sinks),
+            _ => {}
         }
-        let most = match percent {
-            Some(p) if contains_words(&text, "much less than") => Some(MUCH_SHARE * p),
-            Some(p) if contains_words(&text, "less than") => Some(p),
-            _ if contains_words(&text, "a little") || contains_words(&text, "slightly") => Some(LITTLE_SHARE),
+        let zero = place(text, &ZERO_WORDS);
+        let [general_more, general_less] = [&MORE[..], &LESS].map(|list| place(text, list));
+        let [own_more, own_less] = [directions.up, directions.down].map(|list| place(text, list));
+        let is_own = own_more.min(own_less) < usize::MAX;
+        let (more, less) = if is_own { (own_more, own_less) } else { (general_more, general_less) };
+        if zero == usize::MAX
+            && let Some(factor) = Relation::of_factor(text, more, less)
+        {
+            return Some(factor);
+        }
+        if contains_any(text, &HARDLY_WORDS) {
+            return Some(Relation::Below(HARDLY));
+        }
+        let [same, gone] = [&SAME_WORDS[..], &ABSENCE_WORDS].map(|list| place(text, list));
+        let most = match percent(text) {
+            Some(p) if contains_words(text, "much less than") => Some(MUCH_SHARE * p),
+            Some(p) if contains_words(text, "less than") => Some(p),
+            _ if contains_words(text, "a little") || contains_words(text, "slightly") => Some(LITTLE_SHARE),
             _ => None,
         };
         // In "much less than 60 %", "less" does not state a decrease.
-        let less = if percent.is_some() && contains_words(&text, "less than") { usize::MAX } else { less };
-        let earliest = same.min(more).min(less).min(gone).min(nothing);
-        match (earliest, percent) {
-            (usize::MAX, _) => None,
-            (at, _) if at == nothing => Some(Relation::Nothing),
-            (at, _) if at == gone => Some(Relation::Gone),
-            (at, _) if at == same => Some(Relation::Same),
-            (at, Some(p)) if most.is_none() => {
-                Some(Relation::Times(if at == more { 1.0 + p } else { 1.0 - p }))
+        let less = if most.is_some() && percent(text).is_some() && !is_own { usize::MAX } else { less };
+        match same.min(more).min(less).min(gone).min(zero) {
+            usize::MAX => None,
+            at if at == zero => Some(Relation::Nothing),
+            at if at == gone => Some(Relation::Gone),
+            // "just as", "as fast as before": the word of the quantity comes first.
+            at if at == same => Some(Relation::Same),
+            at => Some(if at == more { Relation::More(most) } else { Relation::Less(most) }),
+        }
+    }
+
+    /// A factor or a share: `four times as long`, `less than half`, `about 10 % shorter`, `a third of it is lost`.
+    fn of_factor(text: &str, more: usize, less: usize) -> Option<Relation> {
+        if let Some(factor) = times(text) {
+            let is_down = less < more && factor > 1.0 && !contains_words(text, "less than");
+            let factor = if is_down { 1.0 / factor } else { factor };
+            return Some(match () {
+                () if contains_words(text, "more than") => Relation::Above(factor),
+                () if contains_words(text, "less than") => Relation::Below(factor),
+                () => Relation::Times(factor),
+            });
+        }
+        let share = share(text)?;
+        let is_bound = contains_words(text, "less than");
+        let compares = more.min(less) < usize::MAX;
+        match () {
+            // "Farther, but by much less than 60 %" states an increase, with a bound.
+            () if is_bound && percent(text).is_some() => None,
+            () if is_bound => Some(Relation::Below(share)),
+            () if contains_any(text, &["lost", "is missing"]) => Some(Relation::Times(1.0 - share)),
+            () if contains_any(text, &["left", "remains", "remain", "survives"]) => {
+                Some(Relation::Times(share))
             }
-            (at, _) => Some(if at == more { Relation::More(most) } else { Relation::Less(most) }),
+            () if contains_words(text, "half") && !contains_words(text, "by half") => {
+                Some(Relation::Times(share))
+            }
+            () if compares && more < less => Some(Relation::Times(1.0 + share)),
+            () if compares => Some(Relation::Times(1.0 - share)),
+            () if contains_words(text, "by half") => Some(Relation::Times(1.0 - share)),
+            () if percent(text).is_none() => Some(Relation::Times(share)),
+            () => None,
         }
     }
 
@@ -184,8 +248,12 @@ impl Relation {
             Relation::More(most) => high > (1.0 + SAME) * low && most.is_none_or(|p| high < (1.0 + p) * low),
             Relation::Less(most) => high < (1.0 - SAME) * low && most.is_none_or(|p| high > (1.0 - p) * low),
             Relation::Times(f) => (high / low - f).abs() <= ABOUT * f,
+            Relation::Above(f) => high > f * low,
+            Relation::Below(f) => high < f * low,
             Relation::Gone => (b - a).abs() > 0.5 * low,
             Relation::Nothing => high <= SAME * low,
+            Relation::Rises => b - a > SAME * low,
+            Relation::Sinks => a - b > SAME * low,
         }
     }
 
@@ -193,47 +261,33 @@ impl Relation {
     pub(super) fn condition(self, a: &str, b: &str, run: &str, below: bool) -> String {
         let size = |x: &str| if below { format!("abs({x})") } else { x.to_string() };
         let [low, high] = [size(a), size(b)];
-        let mut text = String::new();
-        let _ = match self {
-            Relation::Breaks => write!(text, "{run}.warnings > 0"),
-            Relation::Same => write!(text, "abs({b} - {a}) <= {SAME} * {low}"),
-            Relation::More(None) => write!(text, "{high} > {} * {low}", 1.0 + SAME),
+        let [over, under] = [1.0 + SAME, 1.0 - SAME];
+        match self {
+            Relation::Breaks => format!("{run}.warnings > 0"),
+            Relation::Same => format!("abs({b} - {a}) <= {SAME} * {low}"),
+            Relation::More(None) => format!("{high} > {over} * {low}"),
             Relation::More(Some(p)) => {
-                write!(
-                    text,
-                    "{high} > {} * {low} && {high} < {} * {low}",
-                    1.0 + SAME,
-                    rounded_number(1.0 + p)
-                )
+                format!("{high} > {over} * {low} && {high} < {} * {low}", rounded_number(1.0 + p))
             }
-            Relation::Less(None) => write!(text, "{high} < {} * {low}", 1.0 - SAME),
+            Relation::Less(None) => format!("{high} < {under} * {low}"),
             Relation::Less(Some(p)) => {
-                write!(
-                    text,
-                    "{high} < {} * {low} && {high} > {} * {low}",
-                    1.0 - SAME,
-                    rounded_number(1.0 - p)
-                )
+                format!("{high} < {under} * {low} && {high} > {} * {low}", rounded_number(1.0 - p))
             }
             Relation::Times(f) => {
-                write!(text, "abs({high} / {low} - {}) <= {}", rounded_number(f), rounded_number(ABOUT * f))
+                format!("abs({high} / {low} - {}) <= {}", rounded_number(f), rounded_number(ABOUT * f))
             }
-            Relation::Gone => write!(text, "abs({b} - {a}) > 0.5 * {low}"),
-            Relation::Nothing => write!(text, "{high} <= {SAME} * {low}"),
-        };
-        text
+            Relation::Above(f) => format!("{high} > {} * {low}", rounded_number(f)),
+            Relation::Below(f) => format!("{high} < {} * {low}", rounded_number(f)),
+            Relation::Gone => format!("abs({b} - {a}) > 0.5 * {low}"),
+            Relation::Nothing => format!("{high} <= {SAME} * {low}"),
+            Relation::Rises => format!("{b} - {a} > {SAME} * abs({a})"),
+            Relation::Sinks => format!("{a} - {b} > {SAME} * abs({a})"),
+        }
     }
 }
 
-/// The first number before a percent sign, as a share.
-fn percent(text: &str) -> Option<f64> {
-    let before = text.split('%').next().filter(|_| text.contains('%'))?.trim_end();
-    let digits = before.rsplit(|c: char| !c.is_ascii_digit() && c != '.').next()?;
-    digits.parse::<f64>().ok().map(|p| p / 100.0)
-}
-
 /// A number for a condition, rounded to four decimals.
-fn rounded_number(x: f64) -> f64 {
+pub(super) fn rounded_number(x: f64) -> f64 {
     (x * 1e4).round() / 1e4
 }
 
@@ -261,11 +315,36 @@ mod tests {
             ),
             ("Lower than before", Some(Relation::Less(None))),
             ("It vanishes", Some(Relation::Nothing)),
+            ("It is about 2.5 times as long", Some(Relation::Times(2.5))),
+            ("positive", Some(Relation::Rises)),
+            ("negative", Some(Relation::Sinks)),
             ("Exactly at the stop: a heavier arm presses harder", Some(Relation::Nothing)),
             ("Because the wheel is round", None),
+            ("Just as fast as before", Some(Relation::Same)),
+            ("As deep as before", Some(Relation::Same)),
+            ("Four times as fast", Some(Relation::Times(4.0))),
+            ("Three times slower", Some(Relation::Times(1.0 / 3.0))),
+            ("A third slower than before", Some(Relation::Times(1.0 - 1.0 / 3.0))),
+            ("A quarter as fast", Some(Relation::Times(0.25))),
+            ("It is less than half", Some(Relation::Below(0.5))),
+            ("Less than half as high", Some(Relation::Below(0.5))),
+            ("More than twice as long", Some(Relation::Above(2.0))),
+            ("About half of it is left", Some(Relation::Times(0.5))),
+            ("A third of it is lost", Some(Relation::Times(1.0 - 1.0 / 3.0))),
+            ("All of it is lost", Some(Relation::Nothing)),
+            ("Nothing is left", Some(Relation::Nothing)),
+            ("Not at all: it comes to rest", Some(Relation::Nothing)),
+            ("It hardly rises at all", Some(Relation::Below(HARDLY))),
+            ("It is shorter, because the pull is stronger", Some(Relation::Less(None))),
+            ("It is the same: the probe is faster", Some(Relation::Same)),
+            ("Nothing", Some(Relation::Same)),
         ] {
-            assert_eq!(Relation::read(words), relation, "{words}");
+            assert_eq!(Relation::read(words, Directions::default()), relation, "{words}");
         }
+        // The words of the quantity count first.
+        let speed = Directions { up: &["faster"], down: &["slower"] };
+        assert_eq!(Relation::read("The higher pulse is slower", speed), Some(Relation::Less(None)));
+        assert_eq!(Relation::read("The heavier ball is higher", speed), Some(Relation::More(None)));
     }
 
     #[test]
@@ -277,9 +356,13 @@ mod tests {
             (Relation::More(Some(0.42)), 0.526, 0.665, true),
             (Relation::More(Some(0.2)), 0.526, 0.665, false),
             (Relation::Times(1.6), 0.526, 0.665, false),
+            (Relation::Above(2.0), 1.0, 2.4, true),
+            (Relation::Below(0.5), 1.0, -0.6, false),
             (Relation::Gone, 0.25, 0.02, true),
             (Relation::Nothing, 0.25, 0.001, true),
             (Relation::Less(None), 0.25, 0.2, true),
+            (Relation::Rises, -2.0, -1.0, true),
+            (Relation::Sinks, 2.0, -1.0, true),
         ] {
             assert_eq!(relation.holds(a, b, false), holds, "{relation:?} {a} {b}");
             assert!(!relation.holds(a, b, true), "what broke has no numbers");

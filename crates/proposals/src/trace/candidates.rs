@@ -27,10 +27,22 @@ pub(crate) struct Candidate {
     pub(crate) cost: f64,
     /// The words of its label and of the names in it.
     pub(crate) words: BTreeSet<String>,
-    /// Whether it is a constant of the model, independent of runs.
-    pub(crate) constant: bool,
+    /// The words that a text uses for it, if it is a constant of the model, independent of runs.
+    pub(crate) constant: Option<ConstantWords>,
+    /// The label of a displayed value, or the name of a joint or an actuator, without the unit.
+    pub(crate) label: String,
     /// A time, s, that the text must name near the number.
     pub(crate) time: Option<f64>,
+}
+
+/// The words that a text uses for a constant of the model.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct ConstantWords {
+    /// Words for the kind of constant; empty if its unit determines it.
+    pub(crate) kind: BTreeSet<String>,
+    /// The words for its object: those of its name and, if no other object has another value, those for its shape. Empty for the
+    /// constants of the whole model.
+    pub(crate) owner: BTreeSet<String>,
 }
 
 /// The maximum numbers of pairs of geoms, named times, joints and constants of one kind.
@@ -41,6 +53,11 @@ const CONSTANTS: usize = 12;
 /// The maximum number of steps of the run in which contacts are searched.
 const STEPS: usize = 20_000;
 
+/// Words for the constants of a model.
+const GRAVITY_WORDS: &str = "gravity gravitational fall falls falling free";
+const MASS_WORDS: &str = "mass heavy heavier light lighter weighs weight kilogram";
+const HEIGHT_WORDS: &str = "height high above centre center dropped drop drops starts start from";
+const SIZE_WORDS: &str = "radius size length long width wide thick thickness half";
 /// Words for the contact of two geoms.
 const CONTACT_WORDS: &str = "contact touch touches touchdown impact lands landing hits first";
 
@@ -49,8 +66,12 @@ struct DisplayedNumber {
     text: String,
     dimension: Dimension,
     words: String,
+    /// Its label, or the name of its object.
+    label: String,
     /// Its cost in addition to that of a displayed value.
     more: f64,
+    /// Whether it is a coordinate along the ground.
+    horizontal: bool,
 }
 
 /// All candidate measures of a lab whose expressions compile.
@@ -71,16 +92,13 @@ pub(super) fn candidates(
         let met = format!("contact('{a}', '{b}')");
         let named = format!("{a} {b} {CONTACT_WORDS}");
         let s = second();
-        add(&mut all, format!("first({met})"), s, 2.0, &named);
-        add(&mut all, format!("first({met}) - model.opt.timestep"), s, 2.6, &named);
-    }
-    if lab.stop_at.is_some() {
-        add(&mut all, "final(data.time)".into(), second(), 2.0, "time stops pauses end");
+        add(&mut all, format!("first({met})"), s, 2.0, &named, "");
+        add(&mut all, format!("first({met}) - model.opt.timestep"), s, 2.6, &named, "");
     }
     for x in displayed.iter().filter(|x| x.text != "data.time") {
-        let DisplayedNumber { text, dimension, words, more } = x;
+        let DisplayedNumber { text, dimension, words, label, more, .. } = x;
         let mut add_candidate =
-            |measure: String, cost: f64| add(&mut all, measure, *dimension, cost + more, words);
+            |measure: String, cost: f64| add(&mut all, measure, *dimension, cost + more, words, label);
         add_candidate(format!("final({text})"), 2.0);
         add_candidate(format!("max({text})"), 2.2);
         add_candidate(format!("min({text})"), 2.2);
@@ -88,19 +106,20 @@ pub(super) fn candidates(
         add_candidate(format!("max({text}) - min({text})"), 3.0);
         add_candidate(format!("mean({text})"), 3.5);
         for (a, b) in &pairs {
-            let words = format!("{words} {a} {b} {CONTACT_WORDS}");
+            // The names of the two geoms alone do not speak of their contact.
+            let words = format!("{words} {CONTACT_WORDS}");
             let mut add_candidate =
-                |measure: String, cost: f64| add(&mut all, measure, *dimension, cost + more, &words);
+                |measure: String, cost: f64| add(&mut all, measure, *dimension, cost + more, &words, label);
             add_candidate(format!("before(contact('{a}', '{b}'), {text})"), 2.6);
             add_candidate(format!("at(contact('{a}', '{b}'), {text})"), 3.0);
         }
         if *more == 0.0 {
-            add(&mut all, format!("period({text})"), second(), 3.0, words);
-            add(&mut all, format!("crossing({text})"), second(), 3.0, words);
+            add(&mut all, format!("period({text})"), second(), 3.0, words, label);
+            add(&mut all, format!("crossing({text})"), second(), 3.0, words, label);
         }
         for t in &times {
             let text = format!("at(data.time >= {t} - 1e-9, {text})");
-            add(&mut all, text, *dimension, 2.5 + more, words);
+            add(&mut all, text, *dimension, 2.5 + more, words, label);
             if let Some(last) = all.last_mut() {
                 last.time = Some(*t);
             }
@@ -117,9 +136,9 @@ pub(super) fn candidates(
     all
 }
 
-fn add(all: &mut Vec<Candidate>, text: String, dimension: Dimension, cost: f64, named: &str) {
-    let words = split_words(named).collect();
-    all.push(Candidate { text, dimension, cost, words, constant: false, time: None });
+fn add(all: &mut Vec<Candidate>, text: String, dimension: Dimension, cost: f64, named: &str, label: &str) {
+    let (words, label) = (split_words(named).collect(), label.to_string());
+    all.push(Candidate { text, dimension, cost, words, constant: None, label, time: None });
 }
 
 /// The traces and readouts, without duplicates of the same expression.
@@ -141,7 +160,19 @@ fn displayed_numbers(lab: &Lab, model: &Model, programs: &Programs) -> Vec<Displ
         let words: Vec<&str> = labels.iter().map(|l| l.as_str()).chain(names).collect();
         match all.iter_mut().find(|s| s.text == text) {
             Some(same) => same.words = format!("{} {}", same.words, words.join(" ")),
-            None => all.push(DisplayedNumber { text, dimension, words: words.join(" "), more: 0.0 }),
+            None => {
+                // "height (m)": the label without its unit.
+                let label = words.first().map_or("", |label| label.split('(').next().unwrap_or("").trim());
+                let label = label.to_string();
+                all.push(DisplayedNumber {
+                    text,
+                    dimension,
+                    words: words.join(" "),
+                    label,
+                    more: 0.0,
+                    horizontal: false,
+                });
+            }
         }
     }
     all
@@ -159,7 +190,9 @@ fn motions(m: &Model) -> Vec<DisplayedNumber> {
                 text: format!("data.joint('{name}').{what}[{i}]"),
                 dimension,
                 words: name.clone(),
+                label: name.clone(),
                 more: 1.0,
+                horizontal: *kind == joint::FREE && i < 2,
             });
         };
         match *kind {
@@ -203,7 +236,9 @@ fn forces(m: &Model) -> Vec<DisplayedNumber> {
                 text: format!("data.qfrc_{what}[{dof}]"),
                 dimension,
                 words,
+                label: format!("{name} {what}"),
                 more: 1.2,
+                horizontal: false,
             });
         }
     }
@@ -212,7 +247,15 @@ fn forces(m: &Model) -> Vec<DisplayedNumber> {
         let Some(rotates) = drives_hinge(m, a) else { continue };
         let dimension = if rotates { torque } else { newton };
         let words = format!("{name} force torque servo motor limit");
-        all.push(DisplayedNumber { text: format!("data.actuator_force[{a}]"), dimension, words, more: 1.2 });
+        let text = format!("data.actuator_force[{a}]");
+        all.push(DisplayedNumber {
+            text,
+            dimension,
+            words,
+            label: format!("{name} force"),
+            more: 1.2,
+            horizontal: false,
+        });
     }
     all
 }
@@ -248,41 +291,71 @@ fn simple(name: &str) -> bool {
 /// Adds the constants of the model that a text may state.
 fn constants(m: &Model, all: &mut Vec<Candidate>) {
     let unit = |text: &str| labspec_bind::units::parse(text).unwrap_or(Dimension::NUMBER);
-    let mut add = |text: String, dimension, cost, named: &str| {
-        let words = split_words(named).collect();
-        all.push(Candidate { text, dimension, cost, words, constant: true, time: None });
+    let mut add = |text: String, dimension, cost, owner: &str, kind: &str| {
+        let [owner, kind] = [owner, kind].map(|words| split_words(words).collect::<BTreeSet<String>>());
+        let words = owner.union(&kind).cloned().collect();
+        let constant = Some(ConstantWords { kind, owner });
+        all.push(Candidate { text, dimension, cost, words, constant, label: String::new(), time: None });
     };
-    add("model.opt.timestep".into(), second(), 1.0, "timestep step");
+    add("model.opt.timestep".into(), second(), 1.0, "", "timestep timesteps step steps");
     for (i, g) in m.opt.gravity.iter().enumerate().filter(|(_, g)| **g != 0.0) {
         let minus = if *g < 0.0 { "-" } else { "" };
-        add(format!("{minus}model.opt.gravity[{i}]"), unit("m/s^2"), 1.0, "gravity");
+        add(format!("{minus}model.opt.gravity[{i}]"), unit("m/s^2"), 1.0, "", GRAVITY_WORDS);
     }
     let bodies = m.names.body.iter().enumerate().skip(1).filter(|(_, name)| simple(name));
+    let is_only_body = m.nbody == 2;
     for (i, name) in bodies.take(CONSTANTS) {
-        add(format!("model.body('{name}').mass[0]"), unit("kg"), 1.5, &format!("{name} mass heavy weight"));
+        let first = m.body_geomadr.get(i).and_then(|g| usize::try_from(*g).ok());
+        let shape = first
+            .filter(|_| is_only_body)
+            .and_then(|g| m.geom_type.get(g))
+            .map_or("", |kind| shape_words(*kind));
+        let owner = &format!("{name} {shape}");
+        add(format!("model.body('{name}').mass[0]"), unit("kg"), 1.5, owner, MASS_WORDS);
         for k in 0..3 {
             if m.body_pos.get(3 * i + k).is_some_and(|x| *x != 0.0) {
-                add(
-                    format!("model.body('{name}').pos[{k}]"),
-                    unit("m"),
-                    2.5,
-                    &format!("{name} height centre"),
-                );
+                add(format!("model.body('{name}').pos[{k}]"), unit("m"), 2.5, owner, HEIGHT_WORDS);
             }
         }
     }
     let geoms = m.names.geom.iter().zip(&m.geom_type).enumerate().filter(|(_, (name, _))| simple(name));
+    let has_size = |kind: i32| !matches!(kind, geom::PLANE | geom::MESH | geom::HFIELD);
+    // Of several equal ones, the text names the shape.
+    let sizes = |k: usize| {
+        let geoms = m.geom_type.iter().enumerate().filter(|(_, kind)| has_size(**kind));
+        let mut sizes = geoms.filter_map(move |(i, _)| m.geom_size.get(3 * i + k).copied());
+        let first = sizes.next();
+        first.is_some_and(|first| sizes.all(|x| x == first))
+    };
     for (i, (name, kind)) in geoms.take(CONSTANTS) {
-        if matches!(*kind, geom::PLANE | geom::MESH | geom::HFIELD) {
+        if !has_size(*kind) {
             continue;
         }
         for k in 0..3 {
+            let owner = &format!("{name} {}", if sizes(k) { shape_words(*kind) } else { "" });
             if m.geom_size.get(3 * i + k).is_some_and(|x| *x != 0.0) {
-                let named = format!("{name} radius size length width thick");
-                add(format!("model.geom('{name}').size[{k}]"), unit("m"), 2.0, &named);
+                add(format!("model.geom('{name}').size[{k}]"), unit("m"), 2.0, owner, SIZE_WORDS);
             }
         }
-        add(format!("model.geom('{name}').solref[0]"), second(), 2.5, &format!("{name} solref constant"));
+        add(format!("model.geom('{name}').solref[0]"), second(), 2.5, name, "solref");
+    }
+}
+
+/// Whether a word of a text is a shape.
+pub(super) fn is_shape(word: &str) -> bool {
+    let kinds = [geom::SPHERE, geom::BOX, geom::CAPSULE, geom::CYLINDER, geom::ELLIPSOID];
+    kinds.into_iter().any(|kind| shape_words(kind).split(' ').any(|shape| shape == word))
+}
+
+/// The words of a text for a shape.
+fn shape_words(kind: i32) -> &'static str {
+    match kind {
+        geom::SPHERE => "ball balls sphere spheres bob",
+        geom::BOX => "box boxes cube cubes block blocks crate brick",
+        geom::CAPSULE => "rod rods capsule link links pole bar",
+        geom::CYLINDER => "cylinder cylinders disk disc wheel wheels puck",
+        geom::ELLIPSOID => "ellipsoid egg",
+        _ => "",
     }
 }
 
@@ -292,7 +365,7 @@ fn depths(m: &Model, displayed: &[DisplayedNumber], all: &mut Vec<Candidate>) {
     let geoms =
         m.names.geom.iter().zip(&m.geom_type).filter(|(name, kind)| simple(name) && **kind == geom::SPHERE);
     for (name, _) in geoms.take(PAIRS) {
-        for x in displayed.iter().filter(|x| x.dimension == metre) {
+        for x in displayed.iter().filter(|x| x.dimension == metre && !x.horizontal) {
             for (how, cost) in [("final", 3.0), ("min", 3.2)] {
                 let text = format!("model.geom('{name}').size[0] - {how}({})", x.text);
                 add(
@@ -304,6 +377,7 @@ fn depths(m: &Model, displayed: &[DisplayedNumber], all: &mut Vec<Candidate>) {
                         "{name} {} deep deeper depth sink sinks sits rest resting penetration inside displacement",
                         x.words
                     ),
+                    "depth",
                 );
             }
         }

@@ -167,7 +167,8 @@ fn command(chars: &[char], i: &mut usize, name: String, length: usize, all: &mut
         "" => *i += 1,
         "left" | "right" | "displaystyle" | "mathrm" | "text" | "ast" | "dot" => {}
         "times" | "cdot" => all.push(FormulaToken::Sign('*')),
-        "frac" | "tfrac" | "dfrac" | "sqrt" | "sin" | "cos" | "tan" | "exp" | "ln" => {
+        "frac" | "tfrac" | "dfrac" | "sqrt" | "sin" | "cos" | "tan" | "exp" | "ln" | "arcsin" | "arccos"
+        | "arctan" => {
             all.push(FormulaToken::Command(name));
         }
         _ => symbol(chars, i, name, length + 1, all),
@@ -315,9 +316,13 @@ impl FormulaParser<'_> {
                 })
             }
             FormulaToken::Command(name) => {
+                let name = if self.inverse() { format!("arc{name}") } else { name.clone() };
                 let operand = self.atom()?;
                 self.operations += 1;
                 let (function, value) = match name.as_str() {
+                    "arcsin" => ("asin", operand.value.asin()),
+                    "arccos" => ("acos", operand.value.acos()),
+                    "arctan" => ("atan", operand.value.atan()),
                     "sqrt" => ("sqrt", operand.value.sqrt()),
                     "sin" => ("sin", operand.value.sin()),
                     "cos" => ("cos", operand.value.cos()),
@@ -328,6 +333,19 @@ impl FormulaParser<'_> {
                 Some(EvaluatedFormula { code: format!("Math.{function}({})", operand.code), value })
             }
         }
+    }
+
+    /// Whether the exponent −1 of an inverse function follows: `\tan^{-1} 0.6`.
+    fn inverse(&mut self) -> bool {
+        use FormulaToken::{Number, Sign};
+        let rest = self.tokens.get(self.at..).unwrap_or_default();
+        let length = match rest {
+            [Sign('^'), Sign('{'), Sign('-'), Number(one, _), Sign('}'), ..] if *one == 1.0 => 5,
+            [Sign('^'), Sign('-'), Number(one, _), ..] if *one == 1.0 => 3,
+            _ => 0,
+        };
+        self.at += length;
+        length > 0
     }
 
     /// The value of a symbol: the last one in the text before the number, otherwise the first one after it.
@@ -401,6 +419,8 @@ mod tests {
             ("is \\tfrac12 g h t = 0.01226 m = 12.26", "12.26", 0.5 * 9.81 * 0.005 * 0.5),
             ("about $v_0 / (\\omega e) = 4.3 / (50 \\times 2.72)$ = 32", "32", 4.3 / (50.0 * 2.72)),
             ("\\frac{1}{2} g t^2 = 1.2", "1.2", 0.5 * 9.81 * 0.25),
+            ("\\tan^{-1} 0.6$ = 0.540", "0.540", 0.6f64.atan()),
+            ("\\arctan 0.6 = 0.540", "0.540", 0.6f64.atan()),
         ] {
             let found = value(text, number).unwrap_or(f64::NAN);
             assert!((found - truth).abs() < 1e-12 * truth, "{text}: {found}");

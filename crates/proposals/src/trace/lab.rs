@@ -11,6 +11,7 @@ use labspec::run::StepVariant;
 use labspec::spec::{Lab, LabAddress, Lesson, Verify};
 use labspec::verify::{self, BoundLab, BoundVerify, RunCache, Stated};
 use labspec_core::Model;
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -26,9 +27,24 @@ pub(crate) struct TracedLab<'l> {
     pub(crate) candidates: Vec<Candidate>,
     /// The value of every candidate in every trial; NaN if there is none.
     pub(crate) values: Vec<Vec<f64>>,
+    /// The candidates for values of the start, by the expression with its closing bracket.
+    initial: BTreeMap<String, usize>,
 }
 
 impl<'l> TracedLab<'l> {
+    /// The candidate for the value of the start of an expression with its closing bracket: `data.qpos[0])`.
+    pub(crate) fn initial(&self, inner: &str) -> Option<usize> {
+        self.initial.get(inner).copied()
+    }
+
+    /// Whether a value is a limit of an actuator or a joint of the model. A force with this value says nothing about a run.
+    pub(crate) fn is_limit(&self, value: f64) -> bool {
+        let m = &self.model;
+        let lists = [&m.actuator_forcerange, &m.actuator_ctrlrange, &m.jnt_actfrcrange, &m.jnt_range];
+        let mut limits = lists.into_iter().flat_map(|list| list.iter().copied());
+        limits.any(|x| x != 0.0 && (x.abs() - value.abs()).abs() <= 1e-9 * x.abs())
+    }
+
     /// Performs the runs of a lab that the text names, and evaluates all measures; `None` if the lab cannot run.
     pub(super) fn measure(
         lesson: &Lesson,
@@ -42,8 +58,12 @@ impl<'l> TracedLab<'l> {
         let owner = questions.map(|(_, q)| q.span.clone()).find(|span| span.contains(&lab.span.start));
         let trials = restored::with(trials(lab, numbers), lab, &model, &programs);
         let candidates = candidates(lab, &model, &programs, numbers);
+        let starts = candidates.iter().enumerate();
+        let starts = starts.filter_map(|(i, c)| Some((c.text.strip_prefix("initial(")?.to_string(), i)));
+        let initial = starts.collect();
+        let values = Vec::new();
         let mut traced =
-            TracedLab { address, lab, owner, model, programs, trials, candidates, values: Vec::new() };
+            TracedLab { address, lab, owner, model, programs, trials, candidates, values, initial };
         traced.values =
             traced.trials.iter().map(|t| traced.values_of(t, stage, StepVariant::NOMINAL)).collect();
         Some(traced)

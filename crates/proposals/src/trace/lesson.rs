@@ -3,10 +3,12 @@
 use super::formula::bindings;
 use super::lab::TracedLab;
 use super::rank::{self, Origin};
+use super::tables::{TracedTable, tables};
 use labspec::bind::scene::Models;
 use labspec::interrupt;
+use labspec::markdown::BlockKind;
 use labspec::spec::{LabAddress, Lesson};
-use labspec::verify::{PERTURBED_BACK, PERTURBED_START, RunCache, Stated, answered, claimed, stated};
+use labspec::verify::{HALVED, PERTURBED_BACK, PERTURBED_START, RunCache, Stated, answered, claimed, stated};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -24,6 +26,7 @@ pub struct Traces<'l> {
     /// All numbers with a unit, in the order of the text.
     pub numbers: Vec<Traced>,
     pub(crate) labs: Vec<TracedLab<'l>>,
+    pub(crate) tables: Vec<TracedTable>,
 }
 
 /// Finds the origin of every number of a lesson. Labs that cannot run are left out. `report_progress` receives descriptions
@@ -41,36 +44,91 @@ pub fn trace<'l>(lesson: &'l Lesson, models: &Models, report_progress: &mut dyn 
     let origin_of = |s: &Stated| match interrupt::requested() {
         _ if claimed.iter().any(|at| at.start < s.span.end && s.span.start < at.end) => Origin::Claimed,
         true => Origin::Unknown,
-        false => rank::origin(s, &numbers, &labs, &bindings),
+        false => rank::origin(s, &numbers, &labs, &bindings, &[]),
     };
     let mut origins: Vec<Origin> = numbers.iter().map(origin_of).collect();
+    if !interrupt::requested() {
+        rank::compare_siblings(&numbers, &mut origins, &labs, &bindings);
+    }
     mark_unsteady(&numbers, &mut origins, &labs, &stage);
+    rank::doubt_coarse(&numbers, &mut origins);
     rank::share(&numbers, &mut origins);
+    let outputs = outputs(lesson);
+    for (s, origin) in numbers.iter().zip(&mut origins) {
+        if let (Origin::Unknown | Origin::Chance(_), Some(line)) = (&*origin, printed_by(s, &outputs)) {
+            *origin = Origin::Listed(line);
+        }
+    }
     let numbers =
         numbers.into_iter().zip(origins).map(|(stated, origin)| Traced { stated, origin }).collect();
-    Traces { numbers, labs }
+    let tables = if interrupt::requested() { Vec::new() } else { tables(lesson, &labs, &stage) };
+    Traces { numbers, labs, tables }
 }
 
-/// Repeats the runs of the origins with perturbed starts: an origin whose digits change is unsteady.
+/// The numbers that listings print: each with the line of its output in the lesson.
+fn outputs(lesson: &Lesson) -> Vec<(String, usize)> {
+    let mut all = Vec::new();
+    let mut follows_listing = false;
+    for block in &lesson.scan.blocks {
+        let BlockKind::Code { language, .. } = &block.kind else { continue };
+        let is_listing = LISTINGS.contains(&language.as_str());
+        if !is_listing && follows_listing {
+            let line = lesson.file.position(block.span.start).line;
+            let is_part = |c: char| c.is_ascii_digit() || matches!(c, '.' | 'e' | 'E');
+            let numbers = block
+                .body
+                .value
+                .split(|c: char| !is_part(c))
+                .filter(|part| part.contains(|c: char| c.is_ascii_digit()));
+            all.extend(numbers.map(|number| (number.to_string(), line)));
+        }
+        follows_listing = is_listing;
+    }
+    all
+}
+
+/// Languages of listings whose output is below them.
+const LISTINGS: [&str; 4] = ["python", "py", "python3", "pycon"];
+/// A number with fewer digits occurs in outputs by chance.
+const PRINTED_DIGITS: usize = 3;
+
+/// The line of the output that contains the digits of a number.
+fn printed_by(s: &Stated, outputs: &[(String, usize)]) -> Option<usize> {
+    let digits: String = s
+        .quote
+        .chars()
+        .skip_while(|c| !c.is_ascii_digit())
+        .take_while(|c| c.is_ascii_digit() || *c == '.')
+        .collect();
+    let significant = digits.trim_start_matches(['0', '.']).chars().filter(char::is_ascii_digit).count();
+    if significant < PRINTED_DIGITS {
+        return None;
+    }
+    outputs.iter().find(|(number, _)| *number == digits).map(|(_, line)| *line)
+}
+
+/// Repeats the runs of the origins with perturbed starts: an origin whose digits change is unsteady. One whose digits change with
+/// half the timestep is fragile.
 fn mark_unsteady(numbers: &[Stated], origins: &mut [Origin], labs: &[TracedLab<'_>], stage: &RunCache<'_>) {
-    let mut again: BTreeMap<(usize, usize), [Vec<f64>; 2]> = BTreeMap::new();
+    let mut again: BTreeMap<(usize, usize), [Vec<f64>; 3]> = BTreeMap::new();
     for (s, origin) in numbers.iter().zip(origins) {
         let Origin::From(hit) = origin else { continue };
+        let mut hit = hit.clone();
         let Some((l, t)) = hit.place else { continue };
         let Some((tried, trial)) = labs.get(l).and_then(|tried| Some((tried, tried.trials.get(t)?))) else {
             continue;
         };
         let moved = again.entry((l, t)).or_insert_with(|| {
-            [PERTURBED_START, PERTURBED_BACK].map(|numerics| tried.values_of(trial, stage, numerics))
+            [PERTURBED_START, PERTURBED_BACK, HALVED].map(|numerics| tried.values_of(trial, stage, numerics))
         });
         let Some(at) = tried.candidates.iter().position(|c| c.text == hit.measure) else { continue };
         let Some(nominal) = tried.values.get(t).and_then(|v| v.get(at)) else { continue };
         let differs = |other: &Vec<f64>| {
             other.get(at).is_some_and(|x| s.read.differ(hit.value, hit.value * x / nominal))
         };
-        if moved.iter().any(differs) {
-            *origin = Origin::Unsteady(hit.clone());
-        }
+        let [moves, back, halves] = moved.each_ref().map(differs);
+        hit.fragile = halves;
+        *origin = if moves || back { Origin::Unsteady(hit) } else { Origin::From(hit) };
     }
 }
 

@@ -9,6 +9,7 @@
 //! | possible measures of each run: readouts, traces, contacts, constants of the model | `candidates` |
 //! | formulas before the number itself | `formula` |
 //! | the simplest of these, and whether chance explains it | `rank` |
+//! | columns of tables whose rows have values of a control | `tables` |
 //! | the proposal for the author | `propose` |
 //!
 //! A number is traced if a simple measure of a run that the text names has the printed digits, and if so few candidates are
@@ -18,9 +19,11 @@ mod candidates;
 mod formula;
 mod lab;
 mod lesson;
+mod names;
 mod propose;
 mod rank;
 mod restored;
+mod tables;
 mod trials;
 mod units;
 mod words;
@@ -28,7 +31,9 @@ mod words;
 pub(crate) use candidates::Candidate;
 pub(crate) use lab::TracedLab;
 pub use lesson::{Traced, Traces, trace};
-pub use propose::{ProposedVerify, blocks, format_verify};
+pub(crate) use names::named_value;
+pub use propose::{ProposedVerify, blocks, comments_of, format_verify};
+pub(crate) use rank::factor;
 pub use rank::{MeasureMatch, Origin};
 pub(crate) use trials::{TraceRun, trials};
 pub(crate) use units::si;

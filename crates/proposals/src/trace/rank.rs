@@ -1,12 +1,17 @@
 //! Selection of the origin of a number: the simplest measure with its digits, unless chance explains the match.
 
-use super::candidates::Candidate;
+use super::candidates::{Candidate, ConstantWords, is_shape};
 use super::formula::{self, Binding};
 use super::lab::TracedLab;
 use super::trials::TraceRun;
-use super::units::si;
+use super::units::{round, second, si};
 use super::words::split_words;
+use labspec::bind::given_by;
+use labspec::run::settings;
+use labspec::spec::ControlKind;
 use labspec::verify::Stated;
+use labspec_expr::Value;
+use labspec_expr::dimension::Measure;
 use std::collections::BTreeSet;
 
 /// The origin of a number.
@@ -20,6 +25,8 @@ pub enum Origin {
     Unsteady(MeasureMatch),
     /// The text uses the number as a setting, so it is not the result of a run.
     Setting(String),
+    /// No candidate has its digits, but the output of a listing contains it: the line of the output.
+    Listed(usize),
     /// A measure has its digits, but chance explains the match.
     Chance(MeasureMatch),
     /// No candidate has its digits.
@@ -39,6 +46,8 @@ pub struct MeasureMatch {
     pub value: f64,
     /// The probability that something as simple as this has these digits by chance.
     pub chance: f64,
+    /// Whether half the timestep gives other digits.
+    pub fragile: bool,
 }
 
 impl MeasureMatch {
@@ -80,6 +89,30 @@ const OTHER_QUESTION: f64 = 0.8;
 /// The cost of a constant that neither the sentence nor the paragraph mentions, and of one that the paragraph mentions.
 const UNNAMED: f64 = 1.5;
 const NAMED_NEAR: f64 = 0.4;
+/// Words for the start of a run.
+const START_WORDS: [&str; 16] = [
+    "start",
+    "starts",
+    "started",
+    "starting",
+    "initial",
+    "initially",
+    "first",
+    "begins",
+    "beginning",
+    "before",
+    "release",
+    "released",
+    "dropped",
+    "from",
+    "comes",
+    "had",
+];
+/// The cost of a setting if another value of the same control is named nearer to the number.
+const NAMED_NEARER: f64 = 0.5;
+/// The reward for a value of the run of another number of the paragraph, or for the measure of another number in another run: "it leaves
+/// at 0.67 m/s instead of 1.00 m/s".
+const SIBLING_REWARD: f64 = 0.6;
 /// The cost of a value that equals the printed number exactly.
 const EXACT: f64 = 0.5;
 /// Two constants of different kinds whose costs differ by less than this are ambiguous.
@@ -93,22 +126,31 @@ struct CandidateMatch {
     hit: MeasureMatch,
 }
 
-/// Determines the origin of a number.
-pub(super) fn origin(s: &Stated, numbers: &[Stated], labs: &[TracedLab<'_>], bindings: &[Binding]) -> Origin {
+/// Determines the origin of a number. `siblings` are the origins of other numbers of its paragraph that are more certain.
+pub(super) fn origin(
+    s: &Stated,
+    numbers: &[Stated],
+    labs: &[TracedLab<'_>],
+    bindings: &[Binding],
+    siblings: &[&MeasureMatch],
+) -> Origin {
     let around = NumberContext::new(s, numbers);
     if si(s) == 0.0 || s.bound {
         return Origin::Unknown;
     }
     let window = 2.0 * s.read.half_unit / s.read.value.abs() / (DECADES * std::f64::consts::LN_10);
     let window = window.min(1.0);
+    if let Some(words) = around.slider(s, labs) {
+        return Origin::Setting(words);
+    }
     if let Some(hit) = formula_hit(s, bindings, window).filter(|hit| hit.chance < CHANCE) {
         return Origin::From(hit);
     }
-    let (tried, mut matches) = compare_values(s, &around, labs);
+    let (tried, mut matches) = compare_values(s, &around, labs, siblings);
     matches.sort_by(|a, b| a.cost.total_cmp(&b.cost));
     let ambiguous = is_ambiguous(&matches);
     let Some(CandidateMatch { cost, mut hit, .. }) = matches.into_iter().next() else {
-        return around.setting(s, labs).map_or(Origin::Unknown, Origin::Setting);
+        return Origin::Unknown;
     };
     // Both constants and rounded numbers have few digits, so exact equality of a constant is weaker evidence.
     let exact = close(hit.value, s.read.value);
@@ -121,7 +163,7 @@ pub(super) fn origin(s: &Stated, numbers: &[Stated], labs: &[TracedLab<'_>], bin
     if hit.chance < CHANCE && !ambiguous {
         return Origin::From(hit);
     }
-    around.setting(s, labs).map_or(Origin::Chance(hit), Origin::Setting)
+    Origin::Chance(hit)
 }
 
 /// Compares a number with every value of its dimension: returns the cost and the size of each value, and those with its digits.
@@ -129,24 +171,31 @@ fn compare_values(
     s: &Stated,
     around: &NumberContext<'_>,
     labs: &[TracedLab<'_>],
+    siblings: &[&MeasureMatch],
 ) -> (Vec<(f64, f64)>, Vec<CandidateMatch>) {
     let mut tried: Vec<(f64, f64)> = Vec::new();
     let mut matches: Vec<CandidateMatch> = Vec::new();
     let distances = distances(s, labs);
+    let nearest: BTreeSet<&str> = labs
+        .iter()
+        .zip(&distances)
+        .filter(|(_, far)| **far < LAB)
+        .flat_map(|(lab, _)| &lab.candidates)
+        .filter_map(|c| c.constant.as_ref())
+        .flat_map(|constant| constant.owner.iter().map(String::as_str))
+        .collect();
+    let filter = CandidateFilter { s, around, nearest, object: object(s, labs) };
     for (l, lab) in labs.iter().enumerate() {
         let far = distances.get(l).copied().unwrap_or(0.0);
         for (t, (trial, values)) in lab.trials.iter().zip(&lab.values).enumerate() {
             let run = around.cost(trial, &lab.trials);
-            let sets_it = trial.named.is_some_and(|(x, _)| close(x, si(s)));
             for (c, &value) in lab.candidates.iter().zip(values) {
-                if !c.dimension.agrees(&s.dimension) || !value.is_finite() || value == 0.0 {
+                if !filter.accepts(c, value, (lab, t, far)) {
                     continue;
                 }
-                // A value that the text itself sets is not a result of the run.
-                if (sets_it || t > 0) && c.constant || c.time.is_some_and(|x| close(x, si(s))) && sets_it {
-                    continue;
-                }
-                let cost = around.cost_of_candidate(c, run, far);
+                let start = if is_start(lab, values, c, value) { around.cost_of_start() } else { 0.0 };
+                let reward = if is_beside(siblings, (l, t), &c.text) { SIBLING_REWARD } else { 0.0 };
+                let cost = around.cost_of_candidate(c, run, far) + start - reward;
                 let ratio = s.dimension.factor / c.dimension.factor;
                 let in_unit = value * ratio;
                 tried.push((cost, in_unit.abs()));
@@ -159,14 +208,129 @@ fn compare_values(
                     let exact = if close(value, s.read.value) { EXACT } else { 0.0 };
                     matches.push(CandidateMatch {
                         cost: cost + more - exact,
-                        constant: c.constant,
-                        hit: MeasureMatch { place, measure, factor, value, chance: 1.0 },
+                        constant: c.constant.is_some(),
+                        hit: MeasureMatch { place, measure, factor, value, chance: 1.0, fragile: false },
                     });
                 }
             }
         }
     }
     (tried, matches)
+}
+
+/// Whether other numbers of the paragraph have this run, or this measure.
+fn is_beside(siblings: &[&MeasureMatch], run: (usize, usize), measure: &str) -> bool {
+    siblings.iter().any(|sibling| sibling.place == Some(run) || sibling.measure == measure)
+}
+
+/// Determines origins again beside the more certain ones of the same paragraph: numbers of a paragraph are about the same run, or
+/// compare the same measure in two runs.
+pub(super) fn compare_siblings(
+    numbers: &[Stated],
+    origins: &mut [Origin],
+    labs: &[TracedLab<'_>],
+    bindings: &[Binding],
+) {
+    let hits: Vec<Option<MeasureMatch>> = origins
+        .iter()
+        .map(|origin| match origin {
+            Origin::From(hit) if hit.place.is_some() => Some(hit.clone()),
+            _ => None,
+        })
+        .collect();
+    for ((s, hit), origin) in numbers.iter().zip(&hits).zip(origins) {
+        let Some(hit) = hit else { continue };
+        let others =
+            numbers.iter().zip(&hits).filter(|(n, _)| n.paragraph == s.paragraph && n.span != s.span);
+        let siblings: Vec<&MeasureMatch> = others
+            .filter_map(|(_, other)| other.as_ref())
+            .filter(|other| other.chance < hit.chance)
+            .collect();
+        if !siblings.is_empty() {
+            *origin = self::origin(s, numbers, labs, bindings, &siblings);
+        }
+    }
+}
+
+/// Which candidates can be the origin of a number.
+struct CandidateFilter<'a> {
+    s: &'a Stated,
+    around: &'a NumberContext<'a>,
+    /// The words for the objects of the nearest lab.
+    nearest: BTreeSet<&'a str>,
+    /// The object that the number describes.
+    object: Option<String>,
+}
+
+impl CandidateFilter<'_> {
+    /// Whether a value of a candidate can be the origin: in a run of a lab at this distance, by its index.
+    fn accepts(&self, c: &Candidate, value: f64, (lab, run, far): (&TracedLab<'_>, usize, f64)) -> bool {
+        let CandidateFilter { s, around, nearest, object } = self;
+        if !c.dimension.agrees(&s.dimension) || !value.is_finite() || value == 0.0 {
+            return false;
+        }
+        // A share is no angle.
+        if s.unit.starts_with(['%', '‰']) && c.dimension.has_angle() {
+            return false;
+        }
+        // A constant that the sentence does not name, and a force at its limit, have these digits by coincidence.
+        let is_named = c.constant.as_ref().is_none_or(|words| around.names(words, far, nearest));
+        if !is_named || c.text.contains("_force") && lab.is_limit(value / c.dimension.factor) {
+            return false;
+        }
+        // A length of an object is a constant of it.
+        let is_owner = |object: &String| c.constant.as_ref().is_some_and(|c| c.owner.contains(object));
+        if object.as_ref().is_some_and(|object| !is_owner(object)) {
+            return false;
+        }
+        // What the run sets is no result of it, and neither is a constant.
+        let trial = lab.trials.get(run);
+        let sets_it = trial.and_then(|trial| trial.named).is_some_and(|(x, _)| close(x, si(s)));
+        let is_set = trial.is_some_and(|trial| is_set(trial, value / c.dimension.factor));
+        if c.constant.is_some() && (sets_it || run > 0) || c.constant.is_none() && sets_it && is_set {
+            return false;
+        }
+        // A time is not what is measured at this time.
+        let is_read_then = c.time.is_some_and(|x| close(x, si(s)));
+        !is_read_then || !sets_it && !c.dimension.agrees(&second())
+    }
+}
+
+/// The object that a length or a mass describes: "the 40 mm cube", "a rod of 0.5 m".
+fn object(s: &Stated, labs: &[TracedLab<'_>]) -> Option<String> {
+    let is_property = ["m", "kg"]
+        .iter()
+        .any(|unit| labspec_bind::units::parse(unit).is_some_and(|dimension| dimension.agrees(&s.dimension)));
+    let (before, rest) = (s.paragraph.get(..s.at)?, s.paragraph.get(s.at..)?);
+    let after = rest.find(s.unit.as_str()).and_then(|at| rest.get(at + s.unit.len()..)).unwrap_or("");
+    let next = after.strip_prefix(' ').and_then(|after| after.split(|c: char| !c.is_alphanumeric()).next());
+    let of = before
+        .trim_end()
+        .strip_suffix(" of")
+        .and_then(|text| text.rsplit(|c: char| !c.is_alphanumeric()).next());
+    let is_object = |word: &String| {
+        let mut constants = labs.iter().flat_map(|lab| &lab.candidates).filter_map(|c| c.constant.as_ref());
+        is_shape(word) || constants.any(|constant| constant.owner.contains(word))
+    };
+    let named = [next, of].into_iter().flatten().map(str::to_lowercase).find(is_object);
+    named.filter(|_| is_property && !s.unit.is_empty())
+}
+
+/// Whether a run sets a value, with either sign.
+fn is_set(trial: &TraceRun, value: f64) -> bool {
+    trial.named.is_some_and(|(x, _)| close(value.abs(), x.abs()))
+}
+
+/// Whether a measure is the value of the start: what the lab sets, not what its run gives.
+fn is_start(lab: &TracedLab<'_>, values: &[f64], c: &Candidate, value: f64) -> bool {
+    if c.text.starts_with("initial(") {
+        return true;
+    }
+    let Some(inner) = c.text.strip_prefix("max(").or_else(|| c.text.strip_prefix("min(")) else {
+        return false;
+    };
+    let initial = lab.initial(inner).and_then(|i| values.get(i)).copied();
+    initial.is_some_and(|start| close(value, start))
 }
 
 /// Whether the best match is a constant, and a constant of another kind is about as good.
@@ -178,12 +342,36 @@ fn is_ambiguous(matches: &[CandidateMatch]) -> bool {
     best.constant && others.iter().any(rivals)
 }
 
+/// Of two different numbers of a paragraph with the same origin, the one with fewer digits is another quantity: "1.78 rad/s, close
+/// to the 1.8 rad/s of the formula".
+pub(super) fn doubt_coarse(numbers: &[Stated], origins: &mut [Origin]) {
+    let hits: Vec<(usize, MeasureMatch)> = origins
+        .iter()
+        .enumerate()
+        .filter_map(|(i, o)| if let Origin::From(hit) = o { Some((i, hit.clone())) } else { None })
+        .collect();
+    for (i, hit) in &hits {
+        let Some(s) = numbers.get(*i) else { continue };
+        let is_finer = |(j, other): &&(usize, MeasureMatch)| {
+            let Some(n) = numbers.get(*j) else { return false };
+            (other.place, &other.measure, &other.factor) == (hit.place, &hit.measure, &hit.factor)
+                && n.paragraph == s.paragraph
+                && n.read.half_unit < s.read.half_unit
+                && n.read.value != s.read.value
+                && hit.place.is_some()
+        };
+        if let (true, Some(origin)) = (hits.iter().any(|other| is_finer(&other)), origins.get_mut(*i)) {
+            *origin = Origin::Chance(hit.clone());
+        }
+    }
+}
+
 /// The number of digits from which a repeated number is recognized.
 const KNOWN: f64 = 3.0;
 
 /// A repeated number has the same origin, and a time at which something was measured is a setting.
 pub(super) fn share(numbers: &[Stated], origins: &mut [Origin]) {
-    let open = |o: &Origin| matches!(o, Origin::Unknown | Origin::Chance(_));
+    let open = |o: &Origin| matches!(o, Origin::Unknown | Origin::Chance(_) | Origin::Listed(_));
     let traced: Vec<(usize, Origin)> =
         origins.iter().cloned().enumerate().filter(|(_, o)| !open(o)).collect();
     for (s, origin) in numbers.iter().zip(origins.iter_mut()).filter(|(s, o)| open(o) && !s.bound) {
@@ -221,6 +409,7 @@ fn formula_hit(s: &Stated, bindings: &[Binding], window: f64) -> Option<MeasureM
         value,
         // It may be read in two ways.
         chance: 1.0 - (1.0 - window).powi(2),
+        fragile: false,
     };
     let ratio = s.dimension.factor;
     // Its numbers are in SI units, or all in the unit of the result.
@@ -229,7 +418,7 @@ fn formula_hit(s: &Stated, bindings: &[Binding], window: f64) -> Option<MeasureM
 }
 
 /// The factor from one unit to another.
-fn factor(sign: &str, ratio: f64) -> String {
+pub(crate) fn factor(sign: &str, ratio: f64) -> String {
     if close(ratio, 1.0) {
         return sign.to_string();
     }
@@ -276,6 +465,8 @@ struct NumberContext<'n> {
     beside: Vec<&'n Stated>,
     paragraph: Vec<&'n Stated>,
     near: Vec<&'n Stated>,
+    /// The place of the number in the file.
+    at: usize,
 }
 
 impl<'n> NumberContext<'n> {
@@ -286,7 +477,15 @@ impl<'n> NumberContext<'n> {
         let text = format!("{} {}", s.context, s.column).to_lowercase();
         let wide = split_words(&s.paragraph).collect();
         let near = numbers.iter().filter(|n| n.span.start.abs_diff(s.span.start) < NEAR_DISTANCE).collect();
-        NumberContext { words: split_words(&text).collect(), wide, text, beside, paragraph, near }
+        NumberContext {
+            words: split_words(&text).collect(),
+            wide,
+            text,
+            beside,
+            paragraph,
+            near,
+            at: s.span.start,
+        }
     }
 
     /// The cost of a time for this number.
@@ -309,7 +508,7 @@ impl<'n> NumberContext<'n> {
     fn cost_of_candidate(&self, c: &Candidate, run: f64, far: f64) -> f64 {
         let shared = c.words.intersection(&self.words).count().min(MOST_WORDS);
         let named = c.time.map_or(0.0, |x| self.time(x));
-        let unnamed = match c.constant && shared == 0 {
+        let unnamed = match c.constant.is_some() && shared == 0 {
             true if c.words.is_disjoint(&self.wide) => UNNAMED,
             true => NAMED_NEAR,
             false => 0.0,
@@ -318,6 +517,11 @@ impl<'n> NumberContext<'n> {
         c.cost + run + far + named + unnamed
             - SENTENCE_REWARD * shared as f64
             - PARAGRAPH_REWARD * wide as f64
+    }
+
+    /// The cost of a value of the start: the sentence should speak of a start.
+    fn cost_of_start(&self) -> f64 {
+        if START_WORDS.iter().any(|word| self.words.contains(*word)) { 0.0 } else { NAMED_NEAR }
     }
 
     fn cost_of_setting(&self, trial: &TraceRun, all: &[TraceRun]) -> f64 {
@@ -333,7 +537,14 @@ impl<'n> NumberContext<'n> {
                 () if self.beside.iter().any(|n| is(&n)) => 0.0,
                 () if self.beside.iter().any(another) => 2.0 * FAR_COST,
                 () if self.paragraph.iter().any(|n| is(&n)) => IN_PARAGRAPH,
-                () if self.near.iter().any(|n| is(&n)) => FAR_COST,
+                () if self.near.iter().any(|n| is(&n)) => {
+                    let away = |x: f64| {
+                        let named = self.near.iter().filter(|n| n.dimension.agrees(&unit) && close(si(n), x));
+                        named.map(|n| n.span.start.abs_diff(self.at)).min().unwrap_or(usize::MAX)
+                    };
+                    let nearer = others().any(|other| away(other) < away(x));
+                    FAR_COST + if nearer { NAMED_NEARER } else { 0.0 }
+                }
                 () => 2.0 * FAR_COST,
             };
         }
@@ -343,11 +554,41 @@ impl<'n> NumberContext<'n> {
         if self.text.contains(&trial.label.to_lowercase()) { 0.0 } else { FAR_COST }
     }
 
-    /// The setting that has this number as its value, if there is one.
-    fn setting(&self, s: &Stated, labs: &[TracedLab<'_>]) -> Option<String> {
-        let has_value = |trial: &TraceRun| {
-            trial.named.is_some_and(|(x, unit)| unit.agrees(&s.dimension) && close(x, si(s)))
-        };
-        labs.iter().flat_map(|l| &l.trials).find(|t| has_value(t)).map(|t| t.words.clone())
+    /// Whether the sentence names a constant: its kind and its object. A word that names an object of the nearest lab
+    /// names none of another lab.
+    fn names(&self, constant: &ConstantWords, far: f64, nearest: &BTreeSet<&str>) -> bool {
+        let ConstantWords { kind, owner } = constant;
+        let is_near = far < LAB;
+        let is_named =
+            |word: &String| self.words.contains(word) && (is_near || !nearest.contains(word.as_str()));
+        let is_owner = is_near && owner.is_empty() || owner.iter().any(is_named);
+        !kind.is_disjoint(&self.words) && is_owner
+    }
+
+    /// The slider that the sentence names together with a value that it can have.
+    fn slider(&self, s: &Stated, labs: &[TracedLab<'_>]) -> Option<String> {
+        let controls = labs.iter().flat_map(|tried| &tried.lab.controls);
+        controls.into_iter().find_map(|control| {
+            let Measure::Known(unit) = given_by(control) else { return None };
+            let x = round(si(s) * unit.factor);
+            let ControlKind::Slider { .. } = &control.kind else { return None };
+            let fits = s.dimension.agrees(&unit) && settings::value(control, &Value::Number(x)).is_ok();
+            (fits && self.names_label(control.label.as_str()))
+                .then(|| format!("\"{}\" at {x}", control.label.as_str()))
+        })
+    }
+
+    /// Whether the sentence contains the words of a label: all of a short one, two of a long one.
+    fn names_label(&self, label: &str) -> bool {
+        let label = label.split('(').next().unwrap_or(label);
+        let words: BTreeSet<String> = split_words(label).collect();
+        match words.len() {
+            0 => {
+                let symbol = label.trim().to_lowercase();
+                let is_word = |word: &str| word.trim_matches('$') == symbol;
+                !symbol.is_empty() && self.text.split(|c: char| c.is_whitespace() || c == '=').any(is_word)
+            }
+            count => words.intersection(&self.words).count() >= count.min(2),
+        }
     }
 }

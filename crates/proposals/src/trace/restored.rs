@@ -17,6 +17,7 @@ pub(super) fn with(mut all: Vec<TraceRun>, lab: &Lab, model: &Model, programs: &
     let again = |(at, trial): (usize, &TraceRun)| {
         (at == 0 || !trial.press.is_empty()).then(|| TraceRun {
             words: format!("{}, with the model as in its file", trial.words),
+            name: format!("{}_of_file", trial.name),
             restored: Some(statements.clone()),
             ..trial.clone()
         })

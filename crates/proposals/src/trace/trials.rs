@@ -1,12 +1,13 @@
 //! The runs that a text names: the unchanged lab, a control at a named value, a button, a timestep.
 
+use super::names::{digits, named_value, slug};
 use super::units::{LONGEST_TIMESTEP, round, second, si};
 use super::words::text;
 use labspec::bind::{given_by, scalar};
 use labspec::json::{Number, Scalar};
 use labspec::run::settings;
 use labspec::spec::format::RUN_LENGTH;
-use labspec::spec::{Control, ControlKind, Lab, Run};
+use labspec::spec::{BreakExpectation, Control, ControlKind, Lab, Run};
 use labspec::verify::Stated;
 use labspec_expr::Value;
 use labspec_expr::dimension::{Dimension, Measure};
@@ -16,6 +17,8 @@ use labspec_expr::dimension::{Dimension, Measure};
 pub(crate) struct TraceRun {
     /// A description: "as it stands", "\"mass\" at 5".
     pub(crate) words: String,
+    /// A name: `plain`, `mass_5`.
+    pub(crate) name: String,
     /// The labels of controls, and their values.
     pub(crate) set: Vec<(String, Scalar)>,
     /// The buttons that are pressed at the start.
@@ -46,6 +49,7 @@ pub(crate) fn trials(lab: &Lab, numbers: &[Stated]) -> Vec<TraceRun> {
     let length = windows.fold(RUN_LENGTH, f64::max).min(LENGTH);
     let base = TraceRun {
         words: "as it stands".into(),
+        name: "plain".into(),
         set: Vec::new(),
         press: Vec::new(),
         timestep: None,
@@ -77,7 +81,8 @@ pub(crate) fn trials(lab: &Lab, numbers: &[Stated]) -> Vec<TraceRun> {
                 timesteps.push(value);
                 let words = format!("with a timestep of {value} s");
                 let named = Some((value, second()));
-                all.push(TraceRun { words, timestep: Some(value), named, ..base.clone() });
+                let name = format!("timestep_{}", digits(value));
+                all.push(TraceRun { words, name, timestep: Some(value), named, ..base.clone() });
             }
         }
     }
@@ -100,6 +105,7 @@ fn add_control_trials(control: &Control, numbers: &[Stated], base: &TraceRun, al
                     let scalar = Scalar::Number(Number { value: x, span: 0..0 });
                     all.push(TraceRun {
                         words: format!("with \"{label}\" at {x}"),
+                        name: named_value(control, &scalar),
                         set: vec![(label.to_string(), scalar)],
                         named: Some((x / unit.factor, unit.times(1.0 / unit.factor))),
                         nominal: Some(start.value / unit.factor),
@@ -113,6 +119,7 @@ fn add_control_trials(control: &Control, numbers: &[Stated], base: &TraceRun, al
             for choice in options.iter().filter(|c| scalar(&c.value) != start).take(VALUES) {
                 all.push(TraceRun {
                     words: format!("with \"{label}\" at \"{}\"", choice.text.as_str()),
+                    name: named_value(control, &choice.value),
                     set: vec![(label.to_string(), choice.value.clone())],
                     label: choice.text.value.clone(),
                     ..base.clone()
@@ -121,6 +128,7 @@ fn add_control_trials(control: &Control, numbers: &[Stated], base: &TraceRun, al
         }
         ControlKind::Button { .. } => all.push(TraceRun {
             words: format!("after \"{label}\" is pressed"),
+            name: slug(label),
             press: vec![label.to_string()],
             label: label.to_string(),
             ..base.clone()
@@ -136,7 +144,7 @@ impl TraceRun {
     }
 
     /// The statements that run after the setup of the lab.
-    pub(super) fn setup(&self) -> Option<String> {
+    pub(crate) fn setup(&self) -> Option<String> {
         let timestep = self.timestep.map(|h| format!("model.opt.timestep = {h}"));
         let all: Vec<String> = self.restored.iter().cloned().chain(timestep).collect();
         (!all.is_empty()).then(|| all.join("; "))
@@ -158,7 +166,7 @@ impl TraceRun {
             steps: None,
             stop: None,
             sweep: None,
-            breaks: false,
+            expect: BreakExpectation::None,
         }
     }
 }

@@ -137,7 +137,10 @@ for (const [path, name] of [["/textured.html", "builtin textures are drawn: a sk
     await opened(page);
     await page.waitForFunction(() => {
       const canvas = document.querySelector("sim-lab").shadowRoot.querySelector(".view canvas");
-      const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+      // The browser warns when a canvas without this option is read several times.
+      const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d", { willReadFrequently: true });
+      copy.drawImage(canvas, 0, 0);
+      const { data } = copy.getImageData(0, 0, canvas.width, canvas.height);
       let [red, green, blue] = [0, 0, 0];
       for (let i = 0; i < data.length; i += 4) {
         const [r, g, b] = data.subarray(i, i + 3);

@@ -163,7 +163,15 @@ fn transmission(
             report
                 .error(rules::ACTUATOR, node.span.clone(), format!("{owner} acts on nothing"))
                 .why("a force needs something to act on")
-                .help(format!("write one of {} with the name of an object", possible.join(", ")));
+                .help(match refs.names.of_kind("joint").next() {
+                    Some(joint) => {
+                        format!(
+                            "write `joint=\"{joint}\"`, or one of {} with the name of an object",
+                            possible.join(", ")
+                        )
+                    }
+                    None => format!("write one of {} with the name of an object", possible.join(", ")),
+                });
             return None;
         }
     };

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const ACTUATOR: &Rule = &Rule {
     code: "mjcf-actuator",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "the parts of an actuator do not fit together, or its numbers are out of range",
     why: "the model does not load, so the scene stays empty",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const CONFLICT: &Rule = &Rule {
     code: "mjcf-conflicting-attributes",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "two attributes contradict each other",
     why: "the loader cannot know which of the two is meant",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const COPY: &Rule = &Rule {
     code: "mjcf-copy",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "a `replicate` or `attach` cannot copy its source",
     why: "the model does not load, so the scene stays empty",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const COUNT: &Rule = &Rule {
     code: "mjcf-count",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "an attribute has too many or too few numbers",
     why: "the model does not load, so the scene stays empty",

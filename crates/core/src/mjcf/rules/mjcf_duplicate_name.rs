@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const DUPLICATE_NAME: &Rule = &Rule {
     code: "mjcf-duplicate-name",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "two objects of the same kind have the same name",
     why: "the loader cannot know which of the two is meant",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const EQUALITY: &Rule = &Rule {
     code: "mjcf-equality",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "an equality constraint does not say what it connects",
     why: "the model does not load, so the scene stays empty",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const FILE: &Rule = &Rule {
     code: "mjcf-file",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "a file that the model names cannot be read or must not be read",
     why: "the page loads only the model, so the scene stays empty",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const OUTSIDE: &Rule = &Rule {
     code: "mjcf-file-outside",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "a file that the model names is outside the allowed folder",
     why: "a lesson from elsewhere must not read the files of the person who checks it",

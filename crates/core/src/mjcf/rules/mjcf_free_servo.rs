@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const FREE_SERVO: &Rule = &Rule {
     code: "mjcf-free-servo",
     severity: Severity::Note,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "a position servo has no limit on its control or its force",
     why: "it follows any target with as much force as it takes",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const GEOM: &Rule = &Rule {
     code: "mjcf-geom",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "a geom has no size, or is not allowed here",
     why: "without a size it has no mass and no surface",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const HFIELD: &Rule = &Rule {
     code: "mjcf-hfield",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "the data of a height field do not form a surface",
     why: "the model does not load, so the scene stays empty",

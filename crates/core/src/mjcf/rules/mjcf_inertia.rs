@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const INERTIA: &Rule = &Rule {
     code: "mjcf-inertia",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "a moving body has no mass or an impossible inertia",
     why: "the smallest force would move it infinitely fast",

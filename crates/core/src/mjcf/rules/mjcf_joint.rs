@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const JOINT: &Rule = &Rule {
     code: "mjcf-joint",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "the joints of a body do not fit together",
     why: "the model does not load, so the scene stays empty",

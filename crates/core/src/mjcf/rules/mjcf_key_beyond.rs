@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const KEY_BEYOND: &Rule = &Rule {
     code: "mjcf-key-beyond",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "a keyframe puts a joint outside its range",
     why: "the limit pushes the joint back from the first step on, so the scene does not begin at rest",

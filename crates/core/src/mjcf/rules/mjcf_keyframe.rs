@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const KEYFRAME: &Rule = &Rule {
     code: "mjcf-keyframe",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "a keyframe does not fit the model",
     why: "the stored state is not a state of this model",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const KEYWORD: &Rule = &Rule {
     code: "mjcf-keyword",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "the value is not an allowed keyword",
     why: "the model does not load, so the scene stays empty",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const LIMIT: &Rule = &Rule {
     code: "mjcf-limit",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "the model is larger or more deeply nested than the limits allow",
     why: "limits keep the checker responsive for any input",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const MASSES_APART: &Rule = &Rule {
     code: "mjcf-masses-apart",
     severity: Severity::Note,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "a body is ten thousand times as heavy as its neighbour",
     why: "the solver converges slowly, and the joint or contact between them gives way; often one mass is in the wrong unit",

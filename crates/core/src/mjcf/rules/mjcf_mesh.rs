@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const MESH: &Rule = &Rule {
     code: "mjcf-mesh",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "the data of a mesh do not form a solid",
     why: "a body needs a volume to have a mass and to make contact",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const MISPLACED_ELEMENT: &Rule = &Rule {
     code: "mjcf-misplaced-element",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "an element is not allowed here",
     why: "the model does not load, so the scene stays empty",

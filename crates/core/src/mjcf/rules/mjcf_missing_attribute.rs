@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const MISSING_ATTRIBUTE: &Rule = &Rule {
     code: "mjcf-missing-attribute",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "an element lacks a required attribute",
     why: "the model does not load, so the scene stays empty",

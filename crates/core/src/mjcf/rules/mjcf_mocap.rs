@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const MOCAP: &Rule = &Rule {
     code: "mjcf-mocap",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "a mocap body is not a child of the world, or has joints",
     why: "the page moves a mocap body directly, and joints would move it too",

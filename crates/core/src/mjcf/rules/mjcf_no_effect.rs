@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const NO_EFFECT: &Rule = &Rule {
     code: "mjcf-no-effect",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "an element or attribute has no effect",
     why: "the author probably expects an effect that does not happen",

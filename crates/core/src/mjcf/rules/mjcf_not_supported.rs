@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const NOT_SUPPORTED: &Rule = &Rule {
     code: "mjcf-not-supported",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "labspec does not support this MJCF element, attribute or value yet",
     why: "its effect would be missing from every number: no answer is better than a wrong one",

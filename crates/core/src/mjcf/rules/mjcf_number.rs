@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const NUMBER: &Rule = &Rule {
     code: "mjcf-number",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "the value is not a finite number",
     why: "the model does not load, so the scene stays empty",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const ORIENTATION: &Rule = &Rule {
     code: "mjcf-orientation",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "an orientation does not describe a rotation",
     why: "the loader cannot compute the rotation",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const OVERLAP: &Rule = &Rule {
     code: "mjcf-overlap",
     severity: Severity::Note,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "a geom begins deep inside another one",
     why: "contacts throw the two apart in the first steps, unless a keyframe or a setup moves them first",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const RANGE_OFF: &Rule = &Rule {
     code: "mjcf-range-off",
     severity: Severity::Note,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "an element gives a range and switches it off",
     why: "a reader believes that the range applies",

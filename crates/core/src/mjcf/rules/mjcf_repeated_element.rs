@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const REPEATED_ELEMENT: &Rule = &Rule {
     code: "mjcf-repeated-element",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "an element that may appear only once is repeated",
     why: "the loader cannot know which of the two is meant",

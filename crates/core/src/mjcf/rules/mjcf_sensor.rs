@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const SENSOR: &Rule = &Rule {
     code: "mjcf-sensor",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "a sensor cannot measure the named object",
     why: "the model does not load, so the scene stays empty",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const SKIN: &Rule = &Rule {
     code: "mjcf-skin",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "the data of a skin do not form a surface that bodies carry",
     why: "the model does not load, so the scene stays empty",

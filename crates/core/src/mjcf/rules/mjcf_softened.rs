@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const SOFTENED: &Rule = &Rule {
     code: "mjcf-softened",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "a `solref` is shorter than two timesteps, so the engine silently makes it softer",
     why: "the number in the model has no effect: the timestep decides how soft contacts and limits are",

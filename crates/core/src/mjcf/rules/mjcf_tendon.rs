@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const TENDON: &Rule = &Rule {
     code: "mjcf-tendon",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "the path of a tendon is incomplete, or its numbers are out of range",
     why: "the model does not load, so the scene stays empty",

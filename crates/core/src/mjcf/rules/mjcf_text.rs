@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const TEXT: &Rule = &Rule {
     code: "mjcf-text",
     severity: Severity::Warning,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "an element contains text where only elements are allowed",
     why: "the loader does not read this text: it may be the rest of a broken tag",

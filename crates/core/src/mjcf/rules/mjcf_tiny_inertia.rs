@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const TINY_INERTIA: &Rule = &Rule {
     code: "mjcf-tiny-inertia",
     severity: Severity::Note,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "a hinge turns a very small inertia",
     why: "the smallest torque makes it faster than any timestep can follow",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const TOO_FAST: &Rule = &Rule {
     code: "mjcf-too-fast",
     severity: Severity::Note,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "a spring, a damper or a servo is too fast for the timestep",
     why: "the integrator makes its motion grow from step to step, unless something else limits it; the runs of a lab show whether it does",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const UNKNOWN_ATTRIBUTE: &Rule = &Rule {
     code: "mjcf-unknown-attribute",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "an element has an attribute that MJCF does not define",
     why: "the model does not load, so the scene stays empty",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const UNKNOWN_CLASS: &Rule = &Rule {
     code: "mjcf-unknown-class",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "a `class` names an unknown default class",
     why: "the values of that class are missing",

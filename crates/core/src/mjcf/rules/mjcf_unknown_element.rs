@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const UNKNOWN_ELEMENT: &Rule = &Rule {
     code: "mjcf-unknown-element",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "MJCF does not define this element",
     why: "the model does not load, so the scene stays empty",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const UNKNOWN_NAME: &Rule = &Rule {
     code: "mjcf-unknown-name",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "a name does not belong to any object",
     why: "the model does not load, so the scene stays empty",

@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const UNUSED: &Rule = &Rule {
     code: "mjcf-unused",
     severity: Severity::Note,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "nothing uses a default class or an asset",
     why: "its values apply to nothing: often a `class` or a `material` attribute is missing",

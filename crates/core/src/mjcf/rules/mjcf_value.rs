@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const VALUE: &Rule = &Rule {
     code: "mjcf-value",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "a value is out of range",
     why: "the model does not load, or computes without physical meaning",

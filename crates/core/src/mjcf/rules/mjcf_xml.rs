@@ -4,6 +4,7 @@ use labspec_finding::{Example, Layer, Rule, Severity};
 pub const XML: &Rule = &Rule {
     code: "mjcf-xml",
     severity: Severity::Error,
+    exceptions: &[],
     layer: Layer::Model,
     summary: "the model is not well-formed XML",
     why: "nothing in the model can be read",

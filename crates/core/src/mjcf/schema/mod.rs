@@ -149,6 +149,11 @@ impl Element {
         self.attributes.iter().copied().flatten()
     }
 
+    /// The names of the child elements.
+    pub fn child_names(&self) -> impl Iterator<Item = &'static str> + use<> {
+        self.children.iter().map(|c| c.name)
+    }
+
     /// The child element of this name.
     pub fn child(&self, name: &str) -> Option<&'static Element> {
         self.children.iter().copied().find(|c| c.name == name)

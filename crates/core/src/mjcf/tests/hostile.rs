@@ -56,12 +56,22 @@ fn extreme_numbers_do_not_pass_as_models() {
 fn many_mistakes_cost_no_more_than_a_hundred() {
     let name = "n".repeat(34);
     let named: String = (0..2000).map(|i| format!("<material name='{name}{i}'/>")).collect();
-    let geoms = format!("<geom size='1' material='{}m'/>", "n".repeat(36)).repeat(50_000);
-    let sensors = "<framepos objtype='body' objname='nobody'/>".repeat(50_000);
-    let xml = format!(
-        "<mujoco><asset>{named}</asset><worldbody>{geoms}</worldbody><sensor>{sensors}</sensor></mujoco>"
+    let mistakes = |geoms: String| {
+        let sensors = "<framepos objtype='body' objname='nobody'/>".repeat(50_000);
+        let xml = format!(
+            "<mujoco><asset>{named}</asset><worldbody>{geoms}</worldbody><sensor>{sensors}</sensor></mujoco>"
+        );
+        let list = compile(&xml).err().unwrap_or_default();
+        list.iter().map(|f| f.code).collect::<Vec<_>>()
+    };
+    // Many uses of one name are one mistake, and many names are many.
+    let head = "n".repeat(36);
+    assert_eq!(
+        mistakes(format!("<geom size='1' material='{head}m'/>").repeat(50_000)),
+        ["mjcf-limit", "mjcf-unknown-name", "mjcf-unknown-name"]
     );
-    assert_eq!(compile(&xml).err().map(|list| list.len()), Some(100));
+    let several = (0..50_000).map(|i| format!("<geom size='1' material='{head}{i}m'/>"));
+    assert_eq!(mistakes(several.collect()).len(), 100);
     let unknown = "<geometry sizes='1'/>".repeat(100_000);
     assert_eq!(compile(&world(&unknown)).err().map(|list| list.len()), Some(100));
 }

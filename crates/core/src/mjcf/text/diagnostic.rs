@@ -167,6 +167,11 @@ impl Diagnostics {
         add(&mut self.list, Finding::error(rule, span, message))
     }
 
+    /// The error of a rule with the same message, if it is reported.
+    pub(crate) fn same(&mut self, rule: &'static Rule, message: &str) -> Option<&mut Finding> {
+        self.list.iter_mut().find(|f| f.code == rule.code && f.message == message)
+    }
+
     /// Adds a warning at a range of bytes. The model still loads.
     pub(crate) fn warning(
         &mut self,

@@ -64,7 +64,7 @@ impl<'f> Loader<'f> {
         let root = self.parse(text, base, &mut list, report)?;
         self.include(&mut list, file, folder_of(file.unwrap_or("")), report);
         for p in self.patches {
-            patch::apply(&mut list, root, p).ok()?;
+            self.patch(&mut list, root, p).ok()?;
         }
         report.is_clean().then(|| xml::print(&list, root))
     }
@@ -88,8 +88,8 @@ impl<'f> Loader<'f> {
         let written = self.parse(&text, base, &mut list, report).and_then(|root| {
             self.include(&mut list, file, &folder, report);
             if self.open.len() == 1 {
-                let change = |p: &Patch| patch::apply(&mut list, root, p).err();
-                self.refusals = listed(self.patches.iter().map(change));
+                let patches = self.patches;
+                self.refusals = listed(patches.iter().map(|p| self.patch(&mut list, root, p).err()));
             }
             let mut tree = tree::check_tree(&list, root, report)?;
             names::after_files(&mut tree);
@@ -98,6 +98,32 @@ impl<'f> Loader<'f> {
         });
         self.open.pop();
         written
+    }
+
+    /// Applies a patch.
+    fn patch(&mut self, list: &mut Vec<XmlElement>, root: usize, patch: &Patch) -> Result<(), Refusal> {
+        if !patch.is_element() {
+            return patch::apply(list, root, patch);
+        }
+        // Mistakes in the new element are a reason to refuse it; its text has no place in the model.
+        let mut report = Diagnostics::new();
+        let base = report.source(None, patch.value.as_str().into());
+        let first = list.len();
+        let new = self.parse(&patch.value, base, list, &mut report);
+        // Files are included before a patch is applied.
+        if list.iter().skip(first).any(|element| element.name == "include") {
+            return Err(Refusal {
+                message: "the new element includes a file".to_string(),
+                help: "write the content of the file in its place".to_string(),
+            });
+        }
+        match new.filter(|_| report.is_clean()) {
+            Some(new) => patch::replace(list, root, patch, new),
+            None => Err(Refusal {
+                message: "the new element is not XML".to_string(),
+                help: "write one whole element, as in `<position joint='arm' kp='50'/>`".to_string(),
+            }),
+        }
     }
 
     fn parse(

@@ -1,4 +1,5 @@
-//! Patches of a model's text before it is compiled: new values for attributes of elements, which are addressed by kind and name.
+//! Patches of a model's text before it is compiled: new values for attributes of elements, which are addressed by kind and name,
+//! and new elements in place of others.
 //!
 //! Patches are applied to the plain elements, after includes are expanded. Masses, inertias and sizes are then
 //! compiled as if the author had written the new values.
@@ -18,13 +19,21 @@ const SETTINGS: [(&str, &str); 5] = [
     ("option", "flag"),
 ];
 
-/// A patch: an attribute of an element, and its new text.
+/// A patch: an attribute of an element, and its new text; or an element, and the element that replaces it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Patch {
-    /// The kind of the element, its name if it has one, and the attribute: `geom ball friction`, `option timestep`.
+    /// The kind of the element, its name if it has one, and the attribute: `geom ball friction`, `option timestep`,
+    /// `default steel geom friction` for an attribute in a default class. Without the attribute for an element: `motor drive`.
     pub path: String,
-    /// The new text of the attribute.
+    /// The new text of the attribute, or the XML of the new element: `<position joint="arm" kp="50"/>`.
     pub value: String,
+}
+
+impl Patch {
+    /// Whether it replaces an element.
+    pub(super) fn is_element(&self) -> bool {
+        self.value.trim_start().starts_with('<')
+    }
 }
 
 /// The reason why a patch is refused.
@@ -42,14 +51,76 @@ struct PatchElement {
     at: usize,
     parent: usize,
     schema: &'static schema::Element,
-    /// Whether it is inside `default`. Paths do not refer to defaults.
+    /// Whether it is inside `default`. Only paths that begin with `default` refer to it.
     default: bool,
 }
 
-/// Applies one patch.
+/// Replaces an element by the element at the index `new` of the list. The new element keeps the name of the old one, unless it has
+/// its own.
+pub(super) fn replace(
+    list: &mut Vec<XmlElement>,
+    root: usize,
+    patch: &Patch,
+    new: usize,
+) -> Result<(), Refusal> {
+    let path = patch.path.trim();
+    let (kind, name) = path.split_once(char::is_whitespace).unwrap_or((path, ""));
+    let name = Some(name.trim()).filter(|name| !name.is_empty());
+    let elements = list_elements(list, root);
+    let found = find_element(list, &elements, kind, name)?;
+    let new_kind = list.get(new).map_or("", |e| e.name.as_str());
+    // The parent in the schema: an included element belongs to the parent of the `include`.
+    let parent = elements.iter().find(|s| s.at == found.parent).filter(|_| found.at != root);
+    let Some(parent) = parent else {
+        let message = format!("`{kind}` cannot be replaced");
+        return Err(Refusal { message, help: "change its attributes, or replace an element in it".into() });
+    };
+    if parent.schema.child(new_kind).is_none() {
+        let message =
+            format!("`{new_kind}` cannot replace `{kind}`: `{}` has no such child", parent.schema.name);
+        let help = suggestion(new_kind, parent.schema.child_names(), "it has no children");
+        return Err(Refusal { message, help });
+    }
+    let old_name = list.get(found.at).and_then(|e| e.attribute("name")).map(|a| a.value.clone());
+    let span = list.get(found.at).map_or(0..0, |e| e.span.clone());
+    place_at(list, new, &span);
+    let named = list.get(new).is_some_and(|e| e.attribute("name").is_some());
+    if let Some(name) = old_name.filter(|_| !named) {
+        set(list, new, "name", &name);
+    }
+    for element in list.iter_mut() {
+        for child in &mut element.children {
+            if *child == found.at {
+                *child = new;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Gives an element and everything in it a span: that of the element which it replaces.
+fn place_at(list: &mut [XmlElement], at: usize, span: &std::ops::Range<usize>) {
+    let mut open = vec![at];
+    while let Some(at) = open.pop() {
+        let Some(element) = list.get_mut(at) else { continue };
+        element.span = span.clone();
+        for attribute in &mut element.attributes {
+            (attribute.name_span, attribute.value_span) = (span.clone(), span.clone());
+            attribute.exact = false;
+        }
+        open.extend(&element.children);
+    }
+}
+
+/// Applies one patch of an attribute.
 pub(super) fn apply(list: &mut Vec<XmlElement>, root: usize, patch: &Patch) -> Result<(), Refusal> {
     let refuse = |message: String, help: &str| Err(Refusal { message, help: help.to_string() });
     let words: Vec<&str> = listed(patch.path.split_whitespace());
+    if let ["default", class @ .., kind, attribute] = words.as_slice()
+        && class.len() <= 1
+    {
+        return set_default(list, root, class.first().copied(), [kind, attribute], &patch.value);
+    }
     let (kind, name, attribute) = match words.as_slice() {
         [kind, attribute] => (*kind, None, *attribute),
         [kind, .., attribute] => {
@@ -84,6 +155,53 @@ pub(super) fn apply(list: &mut Vec<XmlElement>, root: usize, patch: &Patch) -> R
             refuse(format!("`{kind}` has no attribute `{attribute}`"), &help)
         }
     }
+}
+
+/// Sets an attribute of a kind of element in a default class: the main one if no class is given.
+fn set_default(
+    list: &mut Vec<XmlElement>,
+    root: usize,
+    class: Option<&str>,
+    [kind, attribute]: [&str; 2],
+    value: &str,
+) -> Result<(), Refusal> {
+    let elements = list_elements(list, root);
+    let class_of = |s: &PatchElement| list.get(s.at)?.attribute("class").map(|a| a.value.clone());
+    let classes: Vec<PatchElement> = listed(elements.iter().copied().filter(|s| s.schema.name == "default"));
+    // The outermost class is the main one, with or without its name.
+    let is_main = |s: &PatchElement| s.parent == root;
+    let found = classes.iter().find(|s| match class {
+        None | Some("main") => is_main(s) || class_of(s).as_deref() == Some("main"),
+        Some(class) => class_of(s).as_deref() == Some(class),
+    });
+    let found = match (found, class) {
+        (Some(found), _) => *found,
+        (None, None | Some("main")) => {
+            let root = PatchElement { at: root, parent: root, schema: &ROOT, default: false };
+            let made = create_child(list, root, "default");
+            made.ok_or_else(|| unknown_kind("default", std::iter::empty()))?
+        }
+        (None, Some(class)) => {
+            let names: Vec<String> = listed(classes.iter().filter_map(class_of));
+            let help = suggestion(class, names.iter().map(String::as_str), "it has no default classes");
+            return Err(Refusal { message: format!("the model has no default class `{class}`"), help });
+        }
+    };
+    let Some(schema) = found.schema.child(kind) else {
+        return Err(unknown_kind(kind, found.schema.child_names()));
+    };
+    if schema.attribute(attribute).is_none() {
+        let help = suggestion(attribute, schema.attributes().map(|a| a.name), "it has none");
+        return Err(Refusal {
+            message: format!("`{kind}` has no attribute `{attribute}` in `default`"),
+            help,
+        });
+    }
+    let existing = elements.iter().find(|s| s.parent == found.at && s.schema.name == kind).copied();
+    if let Some(entry) = existing.or_else(|| create_child(list, found, kind)) {
+        set(list, entry.at, attribute, value);
+    }
+    Ok(())
 }
 
 /// The element of a kind with a name, or the only element of that kind. A missing settings element is created where it is
@@ -158,16 +276,21 @@ fn create_settings_element(
     let (parent, name) = SETTINGS.iter().find(|(_, name)| *name == kind)?;
     let holder = elements.iter().find(|s| s.schema.name == *parent).copied();
     let holder = holder.or_else(|| create_settings_element(list, parent, elements))?;
+    create_child(list, holder, name)
+}
+
+/// Adds an empty child to an element.
+fn create_child(list: &mut Vec<XmlElement>, holder: PatchElement, name: &str) -> Option<PatchElement> {
     let (at, span) = (list.len(), list.get(holder.at)?.span.clone());
     list.push(XmlElement {
-        name: (*name).to_string(),
+        name: name.to_string(),
         span,
         namespace: false,
         attributes: Vec::new(),
         children: Vec::new(),
     });
     list.get_mut(holder.at)?.children.push(at);
-    Some(PatchElement { at, parent: holder.at, schema: holder.schema.child(name)?, default: false })
+    Some(PatchElement { at, parent: holder.at, schema: holder.schema.child(name)?, default: holder.default })
 }
 
 /// The element that contains the mass of a body: its `inertial`, or its only geom.
@@ -266,6 +389,39 @@ mod tests {
     }
 
     #[test]
+    fn elements_are_replaced() {
+        let ball = patched("geom iron", "<geom type='box' size='.1 .2 .3' mass='2'/>").unwrap();
+        assert_eq!((ball.ngeom, ball.body_mass[1]), (4, 2.0));
+        assert_eq!(ball.geom_size[3..6], [0.1, 0.2, 0.3]);
+        let slide = patched("joint hinge", "<joint type='slide' axis='1 0 0' damping='3'/>").unwrap();
+        assert_eq!((slide.jnt_type[1], slide.dof_damping[6]), (2, 3.0));
+        // A new element keeps the name of the old one, so that everything that names it still finds it.
+        let text = "<mujoco><worldbody><body><joint name='hinge'/><geom size='.1'/></body></worldbody>\
+            <actuator><motor name='drive' joint='hinge'/></actuator><sensor><actuatorfrc actuator='drive'/></sensor></mujoco>";
+        let patch = Patch { path: "motor drive".into(), value: "<position joint='hinge' kp='40'/>".into() };
+        let (checked, refusals) = check_patched(text, &NoFiles, None, &[patch]);
+        assert_eq!(refusals, [None]);
+        assert_eq!(checked.model.unwrap().actuator_gainprm[0], 40.0);
+    }
+
+    #[test]
+    fn default_classes_are_changed() {
+        let text = "<mujoco><default><default class='steel'><geom density='7800'/></default></default><worldbody>\
+            <body><geom class='steel' size='.1'/></body><body><geom size='.1'/></body></worldbody></mujoco>";
+        let mass = |path: &str| {
+            let patch = Patch { path: path.into(), value: "500".into() };
+            let (checked, refusals) = check_patched(text, &NoFiles, None, &[patch]);
+            assert_eq!(refusals, [None], "{path}");
+            let model = checked.model.unwrap();
+            [model.body_mass[1], model.body_mass[2]]
+        };
+        let [steel, plain] = mass("option timestep");
+        assert_eq!(mass("default steel geom density"), [steel * 500.0 / 7800.0, plain]);
+        assert_eq!(mass("default geom density"), [steel, plain / 2.0]);
+        assert_eq!(mass("default main geom density"), [steel, plain / 2.0]);
+    }
+
+    #[test]
     fn a_refused_change_is_reported_with_similar_names() {
         for (path, value, words) in [
             ("geom irn mass", "1", "no geom `irn`; did you mean `iron`?"),
@@ -276,6 +432,15 @@ mod tests {
             ("geom iron name", "gold", "cannot be changed"),
             ("mass", "1", "not an attribute of an element"),
             ("geom iron mass", "heavy", "`mass` of geom"),
+            ("geom irn", "<geom size='1'/>", "no geom `irn`; did you mean `iron`?"),
+            ("geom iron", "<motor joint='hinge'/>", "`motor` cannot replace `geom`"),
+            ("geom iron", "<geom", "is not XML"),
+            ("body rod", "<body><include file='rod.xml'/></body>", "includes a file"),
+            ("worldbody", "<geom size='1'/>", "cannot replace `worldbody`"),
+            ("mujoco", "<geom size='1'/>", "`mujoco` cannot be replaced"),
+            ("default steel geom friction", "1", "no default class `steel`; it has no default classes"),
+            ("default geom fricton", "1", "no attribute `fricton` in `default`; did you mean `friction`?"),
+            ("default gem friction", "1", "did you mean `geom`?"),
         ] {
             match patched(path, value) {
                 Err(message) => assert!(message.contains(words), "{path}: {message}"),

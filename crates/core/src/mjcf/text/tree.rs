@@ -238,7 +238,12 @@ fn attributes(xml: &Xml, element: &'static Element, report: &mut Diagnostics) ->
     let (mut refused, mut refused_word) = (Vec::new(), false);
     for a in &xml.attributes {
         let Some(attr) = element.attribute(&a.name).filter(|_| !a.namespace) else {
-            unknown_attribute(&a.name, a.name_span.clone(), element, report);
+            // A misspelt attribute is read as the intended one, so that nothing else is reported as missing.
+            if let Some(attr) = unknown_attribute(xml, &a.name, a.name_span.clone(), element, report)
+                && let Ok(value) = values::parse(attr.kind, &a.value)
+            {
+                list.push(Attribute { attr, value, span: a.value_span.clone() });
+            }
             continue;
         };
         let span = a.value_span.clone();
@@ -344,14 +349,24 @@ fn same_as(attr: &Attr, value: &Value, default: &str) -> bool {
     }
 }
 
-fn unknown_attribute(name: &str, span: Range<usize>, element: &'static Element, report: &mut Diagnostics) {
+/// Reports an unknown attribute; returns the one that is probably meant, unless the element has it.
+fn unknown_attribute(
+    xml: &Xml,
+    name: &str,
+    span: Range<usize>,
+    element: &'static Element,
+    report: &mut Diagnostics,
+) -> Option<&'static Attr> {
     let message = format!("{} has no attribute {}", element.name, shorten_name(name));
     let error = report.error(rules::UNKNOWN_ATTRIBUTE, span, message);
-    if let Some(near) = nearest(name, element.attributes().map(|a| a.name)) {
+    let near = nearest(name, element.attributes().map(|a| a.name));
+    if let Some(near) = near {
         error.help(format!("did you mean `{near}`?"));
     } else if element.attributes().next().is_none() {
-        error.help(format!("`{}` takes no attributes", element.name));
+        error.help(format!("delete it: `{}` takes no attributes", element.name));
     }
+    let is_given = |attr: &&Attr| xml.attributes.iter().any(|other| other.name == attr.name);
+    element.attribute(near?).filter(|attr| !is_given(attr))
 }
 
 /// The name of an element, empty if it has none.

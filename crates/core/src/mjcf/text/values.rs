@@ -154,9 +154,26 @@ fn not_a_number(word: &str, noun: &str) -> ValueProblem {
         format!("has {}, which is not {} {noun}", shorten_name(word), article(noun)),
     );
     if word.contains(',') {
-        problem.help = Some("separate numbers by spaces and write decimals with a point".into());
+        let parts: Vec<&str> = word.split(',').filter(|part| !part.is_empty()).collect();
+        let are_numbers = parts.iter().all(|part| part.parse::<f64>().is_ok());
+        problem.help = Some(match parts.as_slice() {
+            [whole, decimals] if are_numbers && decimals.bytes().all(|b| b.is_ascii_digit()) => {
+                format!("write `{whole}.{decimals}` for one number, or `{whole} {decimals}` for two")
+            }
+            all if are_numbers && !all.is_empty() => format!("write `{}`, with spaces", all.join(" ")),
+            _ => "separate numbers by spaces and write decimals with a point".into(),
+        });
+    } else if let Some(number) = number_before_unit(word) {
+        problem.help = Some(format!("write `{number}`, without the unit"));
     }
     problem
+}
+
+/// The number before a unit: 0.002 of `0.002s`.
+fn number_before_unit(word: &str) -> Option<&str> {
+    let (number, unit) = word.split_at(word.find(char::is_alphabetic)?);
+    let is_unit = unit.chars().all(char::is_alphabetic);
+    (is_unit && number.parse::<f64>().is_ok()).then_some(number)
 }
 
 fn article(noun: &str) -> &'static str {

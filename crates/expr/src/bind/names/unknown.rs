@@ -2,6 +2,7 @@
 
 use super::language::list_names;
 use super::walk::{NameUse, NameWalk};
+use crate::bind::source::TextKind;
 use crate::host_terms::HostTerms;
 use crate::parse::MAX_DIAGNOSTICS;
 use crate::rules;
@@ -10,6 +11,8 @@ use labspec_finding::{Finding, Span, nearest};
 /// Names of a browser or of Node.
 const PAGE_NAMES: [&str; 8] =
     ["window", "document", "globalThis", "self", "global", "localStorage", "sessionStorage", "navigator"];
+/// Usual names of libraries of Python.
+const PYTHON_NAMES: [&str; 6] = ["np", "numpy", "jnp", "torch", "scipy", "plt"];
 const PRINT_NAMES: [&str; 3] = ["console", "alert", "prompt"];
 const NETWORK_NAMES: [&str; 6] = ["fetch", "XMLHttpRequest", "WebSocket", "require", "process", "Worker"];
 const CODE_NAMES: [&str; 2] = ["eval", "Function"];
@@ -24,6 +27,10 @@ fn explain_absent(name: &str, host_terms: &HostTerms) -> Option<(String, String)
         _ if PAGE_NAMES.contains(&name) => (
             format!("a {lesson} must run without a page: in a browser, on a command line, in a notebook"),
             format!("use a name of the {lab}: {}", host_terms.names),
+        ),
+        _ if PYTHON_NAMES.contains(&name) => (
+            "it is a library of Python".into(),
+            "use `Math`, as `Math.sqrt(x)`, and lists, as `[1, 2].map(x => 2 * x)`".into(),
         ),
         _ if PRINT_NAMES.contains(&name) => {
             ("there is no console".into(), format!("show the value in {}", host_terms.display))
@@ -79,9 +86,15 @@ impl NameWalk<'_, '_> {
                     NameUse::Callee => {
                         "to define your own function, write `const f = (x) => …` first".to_owned()
                     }
-                    _ => {
-                        format!("to define your own number, write `ctx.{name} = …` or `const {name} = …`")
+                    _ if self.around.mode == TextKind::Statements => {
+                        format!(
+                            "to define your own number, write `ctx.{name} = …` or `const {name} = …` before it"
+                        )
                     }
+                    _ => format!(
+                        "to define your own number, {}",
+                        host_terms.own_number.replace("{name}", name)
+                    ),
                 };
                 let mut names = self.root_names();
                 names.extend(["ctx".to_owned(), "Math".to_owned()]);
@@ -105,7 +118,7 @@ impl NameWalk<'_, '_> {
         match self.nearest(name) {
             Some(meant) => report.help(format!("did you mean `{meant}`?")).guess(span, meant),
             None => report.help(format!(
-                "write `const {name} = …` for this text only, or `ctx.{name} = …` to keep it in the {}",
+                "write `let {name} = …` for this text only, or `ctx.{name} = …` to keep it in the {}",
                 self.host_terms().lab
             )),
         }

@@ -254,8 +254,8 @@ impl<'a> NameWalk<'a, '_> {
                 format!("the name of a {} must be in quotes", schema.noun(id)),
             )
             .why("without quotes it is the name of a variable")
-            .help(format!("write `\"{word}\"`"))
-            .fix(arg.span, format!("\"{word}\"")),
+            .help(format!("write `'{word}'`"))
+            .fix(arg.span, format!("'{word}'")),
         );
         true
     }

@@ -14,6 +14,9 @@ use crate::types::{CollectionId, ObjectId, Type};
 use crate::value::Value;
 use labspec_finding::{Finding, Fix, Span, nearest};
 
+/// The largest number of elements of an array that a help names one by one.
+const MAX_LISTED: usize = 4;
+
 /// The name of a `ctx` variable.
 pub(super) enum GlobalName {
     Known(String),
@@ -82,7 +85,7 @@ impl<'a> Binder<'a> {
     fn explain_element(&mut self, field: &Field, index: usize, span: Span) {
         let (schema, key, first) = (self.schema, field.key, field.first);
         self.explain(span, || {
-            let mut help = super::member::field_help(field, schema.host_terms());
+            let mut help = super::member::field_help(field, Some(index), schema);
             help.title = format!("{}[{index}]", field.path);
             help.lines.splice(0..0, schema.element_help(key, first + index));
             help
@@ -294,7 +297,7 @@ impl<'a> Binder<'a> {
                 .fix(span.after(), "[0]"),
             Some(n) => report
                 .why(format!("{}a computation needs a single element", owner(field, n)))
-                .help(format!("select an element, as `{text}[0]`")),
+                .help(select_element(text, n)),
             None => report
                 .why("its length changes during the run, and a computation needs a single element")
                 .help(format!("select an element, as `{text}[0]`")),
@@ -423,6 +426,17 @@ pub(super) fn range(field: &Field) -> String {
     }
 }
 
+/// The advice to select an element of an array: one of few, or any of many.
+pub(super) fn select_element(text: &str, n: usize) -> String {
+    let all: Vec<String> = (0..n.min(MAX_LISTED)).map(|i| format!("`{text}[{i}]`")).collect();
+    match all.split_last() {
+        Some((last, others)) if !others.is_empty() && n <= MAX_LISTED => {
+            format!("select an element: {} or {last}", others.join(", "))
+        }
+        _ => format!("select an element, as `{text}[0]`"),
+    }
+}
+
 /// `the model has 14 coordinates; `, or the size if the host gives no description.
 fn owner(field: &Field, n: usize) -> String {
     if field.owner.is_empty() { format!("it has {n} elements; ") } else { format!("{}; ", field.owner) }
@@ -455,9 +469,10 @@ pub(super) fn past_the_end(field: &Field, span: Span, what: String, host_terms: 
         0 => report
             .why(why)
             .help(format!("add the missing object to the {}, or use another field", host_terms.model)),
-        _ => report
-            .why(format!("{why}, and reading past the end gives `undefined`"))
-            .help(format!("indexes are{}", range(field))),
+        _ => report.why(format!("{why}, and reading past the end gives `undefined`")).help(match n {
+            1 => "use index 0, the only one".to_string(),
+            _ => format!("indexes are{}", range(field)),
+        }),
     }
 }
 

@@ -1,6 +1,6 @@
 //! Assignments: which targets are valid, and why others are not.
 
-use super::access::GlobalName;
+use super::access::{GlobalName, select_element};
 use super::binder::{Binder, Entity, VariableMeaning};
 use super::member::{internal_member, view_of};
 use super::typed::Expectation;
@@ -231,7 +231,11 @@ impl<'a> Binder<'a> {
                 self.refuse(
                     Finding::error(rules::ASSIGN_ARRAY, target.span, format!("`{}` is an array and cannot be replaced as a whole", field.path))
                         .why(format!("its elements are the memory of the {}; assigning the name would change none of them", self.host_terms().world))
-                        .help(format!("assign an element, as `{text}[0] = …`, or all of them with `{text}.fill(…)` or `{text}.set([…], 0)`")),
+                        .help(match field.len() {
+                            Some(1) => format!("name its only element, `{text}[0]`"),
+                            Some(n @ 2..) => format!("{}; a statement such as `{text}.fill(…)` or `{text}.set([…], 0)` changes all of them", select_element(&text, n)),
+                            _ => format!("name an element, as `{text}[0]`; a statement such as `{text}.fill(…)` or `{text}.set([…], 0)` changes all of them"),
+                        }),
                 )
             }
             _ => {
@@ -249,9 +253,12 @@ impl<'a> Binder<'a> {
             ExprKind::Number(_) | ExprKind::String(_) | ExprKind::Boolean(_) | ExprKind::Null => report
                 .why("it is a fixed value")
                 .help("write the field on the left of `=` and the value on the right"),
-            ExprKind::Call { .. } => report
-                .why("a call returns a value; it is not a place to store one")
-                .help("assign a field or a `ctx` variable"),
+            ExprKind::Call { .. } => {
+                report.why("a call returns a value; it is not a place to store one").help(format!(
+                    "name a field or a `ctx` variable, or write the call as a statement, in {}",
+                    self.host_terms().statements
+                ))
+            }
             ExprKind::Logical { .. } | ExprKind::Conditional { .. } => report
                 .why("`=` binds less tightly than the operators before it")
                 .help("to compare, write `===`; to assign, put the assignment into a statement of its own"),

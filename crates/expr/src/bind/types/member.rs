@@ -9,7 +9,7 @@ use crate::math;
 use crate::natives;
 use crate::parse::{Attempt, MAX_DIAGNOSTICS, Reported};
 use crate::rules;
-use crate::schema::{Entry, Field, FieldKind, Help};
+use crate::schema::{Entry, Field, FieldKind, Help, Schema};
 use crate::types::{ObjectId, Type};
 use crate::value::{Value, View};
 use labspec_finding::{Finding, Span, nearest, ranked};
@@ -60,7 +60,7 @@ impl<'a> Binder<'a> {
     fn explain_entity(&mut self, entity: &Entity, text: &str, span: Span) {
         let schema = self.schema;
         match entity {
-            Entity::Field(field) => self.explain(span, || field_help(field, schema.host_terms())),
+            Entity::Field(field) => self.explain(span, || field_help(field, None, schema)),
             Entity::Object(id) => {
                 self.explain(span, || Help { title: schema.describe(*id), lines: Vec::new() });
             }
@@ -261,6 +261,12 @@ impl<'a> Binder<'a> {
         }
     }
 
+    /// The constant index that follows a name.
+    fn index_after(&self, name: Span) -> Option<usize> {
+        let rest = self.source.get(name.end..)?.trim_start().strip_prefix('[')?;
+        rest.split_once(']')?.0.trim().parse().ok()
+    }
+
     pub(super) fn unknown_member(&self, id: ObjectId, name: &Name, span: Span) -> Finding {
         let object = self.schema.describe(id);
         if INTERNAL_MEMBERS.contains(&name.text.as_str()) {
@@ -274,7 +280,7 @@ impl<'a> Binder<'a> {
         if self.diagnostics.len() > MAX_DIAGNOSTICS {
             return report;
         }
-        if let Some(hint) = self.schema.hint(id, &name.text) {
+        if let Some(hint) = self.schema.hint(id, &name.text, self.index_after(name.span)) {
             return report.help(hint);
         }
         let names = self.schema.member_names(id);
@@ -318,11 +324,12 @@ fn language(name: &str, span: Span) -> Option<Entity> {
     }
 }
 
-/// The help for a field, from the table of fields.
-pub(super) fn field_help(field: &Field, host_terms: &HostTerms) -> Help {
+/// The help for a field, or for one of its elements, from the table of fields.
+pub(super) fn field_help(field: &Field, element: Option<usize>, schema: &dyn Schema) -> Help {
     let mut lines = Vec::new();
     if !field.doc.is_empty() {
-        let unit = if field.unit.is_empty() { String::new() } else { format!(", {}", field.unit) };
+        let unit = schema.unit(field, element);
+        let unit = if unit.is_empty() { String::new() } else { format!(", {unit}") };
         lines.push(format!("{}{unit}", field.doc));
     }
     if !field.owner.is_empty() {
@@ -332,7 +339,7 @@ pub(super) fn field_help(field: &Field, host_terms: &HostTerms) -> Help {
     if !shape.is_empty() {
         lines.push(format!("{} numbers", shape.join(" × ")));
     }
-    lines.push(kind_in_words(&field.kind, host_terms));
+    lines.push(kind_in_words(&field.kind, schema.host_terms()));
     Help { title: field.path.clone(), lines }
 }
 

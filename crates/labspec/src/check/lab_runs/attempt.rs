@@ -6,7 +6,7 @@ use super::seen::LabDisplays;
 use crate::check::observations::{InputsOutOfRange, ObservationHash, Record};
 use crate::finding::Finding;
 use crate::run::{self, Budget, End, Play, Session, settings};
-use crate::spec::{Expect, Lab};
+use crate::spec::Lab;
 use crate::stress::{self, Fault, StressCase};
 use labspec_core::Model;
 use std::ops::ControlFlow;
@@ -119,10 +119,17 @@ fn report_breaks(
     let mut tries = REMEDY_WORK;
     for breakdown in run::breakdowns_of(session) {
         // A lab that is expected to break needs no advice.
-        let tried = match matches!(lab.expect, Some(Expect::Breaks(_))) {
+        let tried = match lab.expect.is_some() {
             true => breakdown,
             false => {
-                stress::with_tried_timestep(case, &trial.interaction, trial.length, breakdown, &mut tries)
+                let tried = stress::with_tried_timestep(
+                    case,
+                    &trial.interaction,
+                    trial.length,
+                    breakdown,
+                    &mut tries,
+                );
+                stress::with_tried_end(case, lab, &trial.interaction, trial.length, tried, &mut tries)
             }
         };
         findings.push(run::describe_breakdown(&tried, &trial.done, trial.place(lab)));

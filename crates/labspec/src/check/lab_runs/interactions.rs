@@ -3,7 +3,7 @@
 //! timestep. These are the runs of `labspec stability`, within the work budget of a check.
 
 use super::{LabRunState, Trial, attempt};
-use crate::finding::{Finding, Severity};
+use crate::finding::Finding;
 use crate::rules;
 use crate::run::Budget;
 use crate::spec::Lab;
@@ -47,8 +47,10 @@ fn try_more(state: &mut LabRunState<'_>, left: &mut u64, findings: &mut Vec<Find
         };
         *left = left.saturating_sub(attempt.spent);
         // A fault that a simpler interaction shows is not reported again.
-        of_trial
-            .retain(|f| !findings.iter().any(|reported| reported.code == f.code && reported.span == f.span));
+        of_trial.retain(|f| {
+            let is_same = |other: &Finding| other.code == f.code && other.span == f.span;
+            !findings.iter().any(is_same) && !state.is_shown_alone(f.code, &trial.interaction)
+        });
         findings.extend(of_trial);
         if attempt.ended.is_some() {
             state.skip(1);
@@ -101,11 +103,5 @@ fn finding_of(found: &FaultGroup, state: &LabRunState<'_>) -> Option<Finding> {
     let done = interaction.describe(&state.ready.programs);
     let message = format!("{}, {done} ({}){others}", breakdown.what, fault.measured());
     let place = state.ready.lab.place();
-    let severity = breakdown.rule.severity.max(Severity::Warning);
-    Some(
-        Finding::plain(breakdown.rule, place, message)
-            .severity(severity)
-            .why(breakdown.why)
-            .help(breakdown.help()),
-    )
+    Some(Finding::plain(breakdown.rule, place, message).why(breakdown.why).help(breakdown.help()))
 }

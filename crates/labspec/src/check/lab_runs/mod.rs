@@ -12,7 +12,7 @@ use super::{PreparedLab, RanLab};
 use crate::finding::Finding;
 use crate::rules;
 use crate::run::{self, Budget};
-use crate::spec::{Control, ControlKind, Lab, LabAddress, Lesson};
+use crate::spec::{BreakExpectation, Control, ControlKind, Expect, Lab, LabAddress, Lesson};
 use crate::stress::{self, Action, Fault, FaultGroup, Interaction, InteractionKind, StressCase};
 use attempt::{Attempt, EndedRun};
 use compared::ComparedFindings;
@@ -77,7 +77,11 @@ impl Trial<'_> {
 
 /// The finding about a run that cannot be made.
 fn impossible(place: Range<usize>, e: run::RunError) -> Finding {
-    Finding::error(rules::RUN_IMPOSSIBLE, place, e.0)
+    let finding = Finding::error(rules::RUN_IMPOSSIBLE, place, e.message);
+    match e.help {
+        Some(help) => finding.help(help),
+        None => finding,
+    }
 }
 
 /// The state of a lab during its runs.
@@ -99,6 +103,8 @@ struct LabRunState<'a> {
     has_no_remedy: bool,
     /// The findings of the runs that a lab compares.
     compared: ComparedFindings,
+    /// The rules of the faults of runs with one control, and what the student does in these runs.
+    shown_alone: Vec<(&'static str, Action)>,
 }
 
 impl LabRunState<'_> {
@@ -108,6 +114,15 @@ impl LabRunState<'_> {
         let (faults, spent) = stress::without_pushed_bodies(&self.case, interaction, faults, *length, *left);
         *left = left.saturating_sub(spent);
         faults.into_iter().for_each(|f| stress::add_fault(&mut self.faults, f, interaction));
+    }
+
+    /// Whether a control alone, at a value that an interaction also sets, shows the fault of this rule.
+    fn is_shown_alone(&self, code: &str, interaction: &Interaction) -> bool {
+        let sets = |of: &Action| {
+            let is_same = |action: &Action| action.control == of.control && action.value == of.value;
+            interaction.actions.iter().any(is_same)
+        };
+        self.shown_alone.iter().any(|(rule, action)| *rule == code && sets(action))
     }
 
     /// Counts skipped runs.
@@ -178,7 +193,11 @@ pub(super) fn run_labs(
             ran: runs > 0,
             tried,
             mistakes,
-            expected: lab.expect.is_some(),
+            expect: match lab.expect {
+                None => BreakExpectation::None,
+                Some(Expect::Breaks(_)) => BreakExpectation::Breaks,
+                Some(Expect::MayBreak) => BreakExpectation::MayBreak,
+            },
         }
     };
     states.into_iter().map(ran).collect()
@@ -205,6 +224,7 @@ fn begin<'a>(
         lost: false,
         has_no_remedy: false,
         compared: ComparedFindings::default(),
+        shown_alone: Vec::new(),
     };
     let Some(first) = state.left.next() else { return state };
     let mut of_trial = Vec::new();
@@ -258,6 +278,9 @@ fn go_on(state: &mut LabRunState<'_>, left: &mut u64, findings: &mut Vec<Finding
         let budget = Budget { left: Budget::TRIAL.left.min(*left) };
         let mut of_trial = Vec::new();
         let made = attempt::make(state.ready, &state.case, &trial, budget, &mut state.seen, &mut of_trial);
+        if let [action] = trial.interaction.actions.as_slice() {
+            state.shown_alone.extend(of_trial.iter().map(|f| (f.code, action.clone())));
+        }
         findings.extend(state.compared.add(&trial, state.ready.lab, of_trial));
         match made {
             Ok(attempt) => {

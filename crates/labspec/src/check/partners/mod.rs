@@ -16,7 +16,7 @@ use crate::finding::{Finding, Severity};
 use crate::json::read::named;
 use crate::ledger::State;
 use crate::source::Text;
-use crate::spec::{Lab, Lesson, Question, Run, Verify};
+use crate::spec::{Lab, Lesson, Question, Run, Sweep, Verify};
 use crate::verify::{self, BoundVerify, Judgement, Measured, QuoteState, RenderedText, RunCache};
 use dependency::Dependency;
 use std::cell::OnceCell;
@@ -311,8 +311,8 @@ impl<'a> Partners<'a> {
 /// gains and biases of general actuators.
 fn changes(verify: &Verify) -> impl Iterator<Item = &Text> {
     let runs = verify.runs.iter();
-    let of_runs =
-        runs.flat_map(|run| run.model.iter().map(|c| &c.path).chain(run.sweep.as_ref().map(|s| &s.what)));
+    let of_runs = runs
+        .flat_map(|run| run.model.iter().map(|c| &c.path).chain(run.sweep.iter().flat_map(Sweep::subjects)));
     let alone = |text: &&Text| {
         let mut words = text.value.split_whitespace();
         words.any(|word| ["inertial", "gainprm", "biasprm"].contains(&word))

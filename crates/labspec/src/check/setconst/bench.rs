@@ -86,7 +86,7 @@ impl<'a> SetConstBench<'a> {
             }
             _ => (None, None),
         };
-        run::count_steps(self.lab, until, steps, timestep).map(|n| n.min(STEPS)).map_err(|e| e.0)
+        run::count_steps(self.lab, until, steps, timestep).map(|n| n.min(STEPS)).map_err(|e| e.message)
     }
 
     /// The runs that could show the effect of a program.

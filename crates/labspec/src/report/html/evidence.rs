@@ -6,7 +6,7 @@ use super::settings;
 use super::text::{code, plain, text};
 use super::verdict::verdict;
 use crate::check::Claim;
-use crate::ledger::{Evidence, State, Subject};
+use crate::ledger::{State, Subject};
 use crate::printable::counted;
 use crate::spec::Verify;
 use crate::verify::{Measured, Quote, QuoteState, significant};
@@ -135,12 +135,9 @@ fn runs(claim: &Claim, spec: Option<&Verify>, context: &LessonContext<'_>) -> St
     // Settings that all runs share are printed once.
     let same = numerics.first().filter(|first| numerics.iter().all(|other| other == *first));
     let row = |(i, r): (usize, &crate::verify::RunReport)| {
-        let outcome = match (&judgement.unmade, &r.broke, r.expected) {
-            (Some(_), ..) => (State::Unchecked, "not made"),
-            (None, Some(_), true) => (State::True(Evidence::Simulated), "breaks"),
-            (None, Some(_), false) => (State::False, "broken"),
-            (None, None, true) => (State::False, "does not break"),
-            (None, None, false) => (State::True(Evidence::Simulated), "made"),
+        let outcome = match &judgement.unmade {
+            Some(_) => (State::Unchecked, "not made"),
+            None => r.outcome(),
         };
         let (state, word) = context.state(Subject::Run, &r.span, &r.name).unwrap_or(outcome);
         let how = judgement.unmade.as_deref().or(r.broke.as_deref()).unwrap_or("");

@@ -22,10 +22,10 @@ pub(super) fn done(run: Option<&Run>, name: &str) -> String {
     all.extend(run.model.iter().map(|c| change(c.path.as_str(), &c.value)));
     all.extend(run.key.as_ref().map(|key| format!("keyframe {}", plain(&scalar(key)))));
     all.extend(run.set.iter().map(|(label, value)| change(label.as_str(), &scalar(value))));
-    all.extend(run.sweep.as_ref().and_then(|sweep| {
-        let value = member(sweep, run.name.as_str(), name)?;
-        Some(change(sweep.what.as_str(), &value.to_string()))
-    }));
+    let index = |sweep: &Sweep| if sweep.is_list() { member(run.name.as_str(), name) } else { Some(0) };
+    if let Some((sweep, index)) = run.sweep.as_ref().and_then(|sweep| Some((sweep, index(sweep)?))) {
+        all.extend(sweep.values(index).map(|(axis, value)| change(axis.what.as_str(), &value.to_string())));
+    }
     all.extend(run.setup.as_ref().map(|statements| format!("setup {}", code(statements.as_str()))));
     all.extend(run.controller.as_ref().map(|statements| match statements.as_str().trim() {
         "" => "no controller".to_string(),
@@ -44,10 +44,9 @@ pub(super) fn done(run: Option<&Run>, name: &str) -> String {
     all.join("; ")
 }
 
-/// The value of the member of a sweep with this name: `fall[2]`.
-fn member(sweep: &Sweep, run: &str, name: &str) -> Option<f64> {
-    let number = name.strip_prefix(run)?.strip_prefix('[')?.strip_suffix(']')?;
-    sweep.values.get(number.parse::<usize>().ok()?).copied()
+/// The index of the member of a sweep with this name: `fall[2]`.
+fn member(run: &str, name: &str) -> Option<usize> {
+    name.strip_prefix(run)?.strip_prefix('[')?.strip_suffix(']')?.parse().ok()
 }
 
 fn scalar(value: &Scalar) -> String {

@@ -97,7 +97,7 @@ fn a_value_takes_its_words() {
     assert_eq!(at("{\"controls\": [{\"type\": \"b¦}]}"), ["button"]);
     assert_eq!(at(r#"{"questions": [{"kind": "¦mcq", "q": "?"}]}"#).len(), 8);
     assert_eq!(at(r#"{"id": "a", "questions": [{"kind": "n¦"}]}"#), ["numeric"]);
-    assert_eq!(at(r#"{"expect": ¦, "model": "a"}"#), ["breaks"]);
+    assert_eq!(at(r#"{"expect": ¦, "model": "a"}"#), ["breaks", "may break"]);
     assert_eq!(at(r#"{"model": "a", "dock": ¦}"#), ["true", "false"]);
     assert_eq!(at(r#"{"model": "a", "dock": t¦}"#), ["true"]);
     assert_eq!(at(r#"{"model": "a", "toggles": ["com", "¦", "sites"]}"#).len(), OVERLAYS.len() - 2);

@@ -29,6 +29,7 @@ fn kind(ty: &Type) -> String {
         Type::Number => "number".into(),
         Type::Whole => "integer".into(),
         Type::Flag => "true or false".into(),
+        Type::Null => "`null`".into(),
         Type::Scalar => "number, text, true or false".into(),
         Type::Words(words) => {
             let all: Vec<String> = texts(words).map(|w| format!("\"{w}\"")).collect();

@@ -1,7 +1,7 @@
 //! Completions in a lesson, from the JSON of its blocks.
 
 use super::complete::completions_of;
-use super::{Completion, INTEGRATORS, RequestedNames, VERIFY, completions};
+use super::{Completion, INTEGRATORS, LAB, QUIZ, RequestedNames, VERIFY, completions};
 use crate::markdown::{self, Block, BlockKind, LabKind};
 use crate::source::SourceFile;
 use crate::spec::{FileKind, comment, kind_of};
@@ -41,7 +41,12 @@ pub fn completions_in(
             here.end = middle;
         }
     }
-    let whole = (*kind == BlockKind::Lab(LabKind::Comparison)).then_some(&INTEGRATORS);
+    let whole = match kind {
+        BlockKind::Lab(LabKind::Simulation) => Some(&LAB),
+        BlockKind::Lab(LabKind::Comparison) => Some(&INTEGRATORS),
+        BlockKind::Quiz => Some(&QUIZ),
+        BlockKind::Widget(_) | BlockKind::Code { .. } => None,
+    };
     let found = completions_of(whole, &body.value, here.start, names).into_iter();
     let whole = found.filter(|c| body.map.is_unbroken(c.replace.clone()));
     whole.map(|c| Completion { replace: body.map.span(c.replace), ..c }).collect()
@@ -74,6 +79,14 @@ mod tests {
         let (all, text) = offered(quoted);
         assert_eq!(all, ["select"]);
         assert!(text.contains(">  \"controls\": [{\"type\": \"select\"}]}\n> ```"), "{text}");
+    }
+
+    /// The fence decides, before any key is written.
+    #[test]
+    fn a_quiz_has_no_keys_of_labs() {
+        assert_eq!(offered("```quiz\n{|}\n```\n").0, ["id", "title", "questions", "lint"]);
+        let (all, _) = offered("```lab\n{|}\n```\n");
+        assert!(all.iter().any(|key| key == "model") && !all.iter().any(|key| key == "questions"), "{all:?}");
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! The lab, its camera, and the order of events.
 
 use super::lint::lint_key;
-use super::{Absent, CONTROL, Key, Named, Object, PLOT, READOUT, Together, Type, VERIFY, Word, key};
+use super::{Absent, CONTROL, Key, LISTING, Named, Object, PLOT, READOUT, Together, Type, VERIFY, Word, key};
 use crate::spec::CodeForm;
 use labspec_finding::docs;
 
@@ -22,14 +22,22 @@ static ONE_CONTROL: Type = Type::OneOf(&CONTROL);
 static ONE_PLOT: Type = Type::Object(&PLOT);
 static ONE_READOUT: Type = Type::Object(&READOUT);
 static NUMBER: Type = Type::Number;
+static TEXT: Type = Type::Text;
+static LISTED: Type = Type::Object(&LISTING);
 
 /// The results that a lab can be expected to have.
-static EXPECTED: [Word; 1] = [Word {
-    text: "breaks",
-    doc: docs(
-        "the simulation meets a bad number or gains energy without a source, and the lab shows this on purpose",
-    ),
-}];
+static EXPECTED: [Word; 2] = [
+    Word {
+        text: "breaks",
+        doc: docs(
+            "the simulation meets a bad number or gains energy without a source, and the lab shows this on purpose",
+        ),
+    },
+    Word {
+        text: "may break",
+        doc: docs("some settings of the controls break the simulation, and the lab shows this on purpose"),
+    },
+];
 
 /// `verify`, for a lab and for a question. (It is a function because a constant must not refer to itself.)
 pub(super) const fn verify_key() -> Key {
@@ -57,8 +65,8 @@ pub static LAB: Object = Object {
         ),
         key(
             "xml",
-            Type::Text,
-            "a model (MJCF) written here instead of `model`",
+            Type::Either(&TEXT, &LISTED),
+            "a model (MJCF) written here instead of `model`; in a lab of a `verify` object also a listing of the lesson, `{\"listing\": \"pendulum.xml\"}`",
             r#""<mujoco><worldbody><body name='ball'><freejoint name='ball'/><geom size='0.1'/></body></worldbody></mujoco>""#,
         ),
         key(
@@ -169,7 +177,7 @@ pub static LAB: Object = Object {
         key(
             "expect",
             Type::Words(&EXPECTED),
-            "the intended result of the lab; a run with this result is not reported, and it is an error if no run has it",
+            "the intended result of the lab; a run with this result is not reported; with `breaks` it is an error if no run has it",
             r#""breaks""#,
         )
         .or(Absent::Said("every run must go well")),

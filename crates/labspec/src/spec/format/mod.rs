@@ -34,7 +34,7 @@ pub use quiz::{
     CODE, DEBUG, HASH, MCQ, MULTIPLE, NUMERIC, OPEN, PREDICT, QUESTION, QUIZ, TOLERANCE, TRUEFALSE,
 };
 pub use schema::{Root, schema};
-pub use verify::{CLOSED_FORM, COLUMN, FIND, RUN, RUN_LENGTH, SPAN, VERIFY};
+pub use verify::{CLOSED_FORM, COLUMN, FILE_VALUES, FIND, LISTING, RUN, RUN_LENGTH, SPAN, VERIFY};
 
 use super::CodeForm;
 use labspec_finding::docs;
@@ -132,6 +132,8 @@ pub enum Type {
     Whole,
     /// `true` or `false`.
     Flag,
+    /// `null`, for a place in a list that is left empty.
+    Null,
     /// A number, a text, or a boolean.
     Scalar,
     /// One of these words.
@@ -298,7 +300,7 @@ impl Key {
 }
 
 /// All objects, in the order of the reference page.
-pub static OBJECTS: [&Object; 27] = [
+pub static OBJECTS: [&Object; 29] = [
     &LAB,
     &INTEGRATORS,
     &CAMERA,
@@ -323,6 +325,8 @@ pub static OBJECTS: [&Object; 27] = [
     &VERIFY,
     &RUN,
     &SPAN,
+    &FILE_VALUES,
+    &LISTING,
     &FIND,
     &COLUMN,
     &CLOSED_FORM,

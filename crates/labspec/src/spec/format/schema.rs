@@ -191,6 +191,7 @@ fn value(ty: &Type, limits: &Limits) -> SchemaNode {
         Type::Number => bounded("number", limits),
         Type::Whole => bounded("integer", limits),
         Type::Flag => typed("boolean"),
+        Type::Null => typed("null"),
         Type::Scalar => SchemaNode::from(SchemaKeyword::Types(["number", "string", "boolean"])),
         Type::Words(words) => SchemaNode::from(SchemaKeyword::Enum(words.iter().map(|w| w.text).collect())),
         Type::List(item) => typed("array").and([SchemaKeyword::Items(value(item, limits))]),

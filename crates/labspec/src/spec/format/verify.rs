@@ -21,10 +21,14 @@ static LIST: Type = Type::List(&NUMBER);
 static CHANGES: Map =
     Map { names: "kind, name and attribute of an element of the model", ty: Type::Either(&SCALAR, &LIST) };
 static RANGE: Type = Type::Object(&SPAN);
+static IN_A_FILE: Type = Type::Object(&FILE_VALUES);
+static SPANNED: Type = Type::Either(&RANGE, &IN_A_FILE);
 static SWEPT: Map = Map {
     names: "the label of a control, or an attribute of the model as in `model`",
-    ty: Type::Either(&LIST, &RANGE),
+    ty: Type::Either(&SWEPT_VALUES, &SPANNED),
 };
+static SWEPT_VALUE: Type = Type::Either(&NUMBER, &TEXT);
+static SWEPT_VALUES: Type = Type::List(&SWEPT_VALUE);
 static FOUND: Map = Map { names: "the name of a value", ty: Type::Object(&FIND) };
 static KEYED: [PairHalf; 2] = [
     PairHalf { what: "the heading of the column that distinguishes the rows", ty: Type::Text },
@@ -44,6 +48,10 @@ static QUOTE: [PairHalf; 2] = [
 static EXPRESSIONS: Type = Type::List(&EXPRESSION);
 static IN_WORDS: Map = Map { names: "the text of a cell", ty: Type::Code(CodeForm::Expression) };
 static WORDED: Type = Type::Map(&IN_WORDS);
+static CELL: Type = Type::Either(&EXPRESSION, &WORDED);
+static CELLS: Type = Type::List(&CLAIMED_CELL);
+static CLAIMED_CELL: Type = Type::Either(&CELL, &Type::Null);
+static HEADED: Map = Map { names: "the heading of a column", ty: Type::Either(&EXPRESSION, &WORDED) };
 static SAID: Type = Type::Pair(&QUOTE);
 
 static PRESSED: [PairHalf; 2] = [
@@ -70,20 +78,20 @@ pub static VERIFY: Object = Object {
         key(
             "use",
             Type::Text,
-            "the lab (`#1`) or the question (`#quiz-id.2`) whose `verify` provides further runs, measures and searches; a name that is also defined here keeps its meaning here",
+            "the lab (`#1`) or the question (`#quiz-id.2`) whose `verify` provides further runs, measures and searches, or the name of a comment `<!-- labspec define NAME {…} -->` that contains them; a name that is also defined here keeps its meaning here",
             r##""#1""##,
         ),
         key(
             "runs",
             Type::Map(&RUNS),
-            "runs by name; measures are read as `run.measure`, or by their own name where there is one run",
+            "runs by name; measures are read as `run.measure`, or by their own name where there is one run; a name that lists several, `light, heavy`, is a run for each value of its `sweep`",
             r#"{"earth": {"set": {"gravity": -9.81}, "until": 1}}"#,
         )
         .or(Absent::Said("one run of the lab as it stands")),
         key(
             "measure",
             Type::Map(&MEASURES),
-            "expressions by name, evaluated in every run; see [measures](functions.md)",
+            "expressions by name, evaluated in every run; one that names a whole array, `final(data.qpos)`, is a list; see [measures](functions.md)",
             r#"{"speed": "final(-data.joint('ball').qvel[2])"}"#,
         )
         .or(Absent::Empty),
@@ -146,8 +154,15 @@ pub static VERIFY: Object = Object {
     together: &[Together::OneAdvised(&["options", "value", "says", "table", "exact"])],
 };
 
-static EXPECTED: [Word; 1] =
-    [Word { text: "breaks", doc: docs("the lesson shows this run breaking, and then it must break") }];
+static EXPECTED: [Word; 2] = [
+    Word { text: "breaks", doc: docs("the lesson shows this run breaking, and then it must break") },
+    Word {
+        text: "may break",
+        doc: docs(
+            "it may break or not, as some runs of a sweep do; claims read its measures over all samples, also those after MuJoCo resets the data",
+        ),
+    },
+];
 
 /// A run.
 pub static RUN: Object = Object {
@@ -167,7 +182,7 @@ pub static RUN: Object = Object {
         key(
             "model",
             Type::Map(&CHANGES),
-            "attributes of the model to change before it is compiled: `geom ball friction`, or `option timestep` for an element without a name; the mass of a body with one geom is `body ball mass`",
+            "attributes of the model to change before it is compiled: `geom ball friction`, or `option timestep` for an element without a name; the mass of a body with one geom is `body ball mass`; in a default class, `default steel geom friction`; without an attribute, `motor drive`, the XML of an element that replaces it",
             r#"{"body ball mass": 5, "option timestep": 0.01}"#,
         )
         .or(Absent::Empty),
@@ -215,7 +230,7 @@ pub static RUN: Object = Object {
         key(
             "sweep",
             Type::Map(&SWEPT),
-            "makes a run for each of these values of one control, or of one attribute of the model; a measure of such a run is a list: `run.measure[0]`, `slope(run.measure)`, and `run.value` holds the values",
+            "makes a run for each of these values of a control, or of an attribute of the model, and for each combination of several; a measure of such a run is a list: `run.measure[0]`, `slope(run.measure)`, and `run.value` holds the values, `run.value2` those of the second control or attribute; a text of an option counts with its place in the list, from 0",
             r#"{"option timestep": [0.002, 0.005, 0.01]}"#,
         ),
         key("expect", Type::Words(&EXPECTED), "the intended result of the run", r#""breaks""#)
@@ -232,8 +247,13 @@ pub static COLUMN: Object = Object {
     tag: None,
     minimal: r#"{"column": "touchdown (s)", "by": ["height (m)", "fall.value"], "is": "fall.touch"}"#,
     keys: &[
-        key("column", Type::Text, "the heading of the column, as a reader sees it", r#""touchdown (s)""#)
-            .must("without it the column is unknown"),
+        key("column", Type::Text, "the heading of the column, as a reader sees it", r#""touchdown (s)""#),
+        key(
+            "columns",
+            Type::Map(&HEADED),
+            "instead of `column` and `is`: several columns by their headings, each with what its cells state",
+            r#"{"touchdown (s)": "fall.touch", "speed (m/s)": "fall.speed"}"#,
+        ),
         key(
             "by",
             Type::Pair(&KEYED),
@@ -243,16 +263,15 @@ pub static COLUMN: Object = Object {
         key(
             "row",
             Type::Text,
-            "instead of `by`: the text in the first cell of the row",
+            "instead of `by`: the text in the first cell of the row; in a table of a sweep its number also tells the member",
             r#""0.65""#,
         ),
         key(
             "is",
-            Type::Either(&EXPRESSION, &WORDED),
-            "what the cells state: a list in the order of the values, or one number for one cell; for words an object with a list of conditions for each, as `{\"stable\": \"fall.depth.map(d => d < 1)\", …}`",
+            Type::Either(&CELL, &CELLS),
+            "what the cells state: a list in the order of the values, or one number for one cell; for words an object with a list of conditions for each, as `{\"stable\": \"fall.depth.map(d => d < 1)\", …}`; with `row` and no `column`, a list for the cells after the first, with `null` for a cell that is not claimed",
             r#""fall.touch""#,
-        )
-        .must("without it there is nothing to compare the cells with"),
+        ),
     ],
     together: &[Together::ExactlyOne(&["by", "row"])],
 };
@@ -296,7 +315,7 @@ pub static FIND: Object = Object {
 pub static SPAN: Object = Object {
     name: "span",
     what: "a span of values",
-    doc: docs("Values at equal distances, both ends included."),
+    doc: docs("Values between two ends: at equal distances with both ends included, or drawn at random."),
     tag: None,
     minimal: r#"{"from": 0.2, "to": 2, "count": 5}"#,
     keys: &[
@@ -304,7 +323,54 @@ pub static SPAN: Object = Object {
         key("to", Type::Number, "the last value", "2").must("without it there is no last value"),
         key("count", Type::Whole, "how many values there are", "5")
             .must("without it the number of runs is unknown"),
+        key(
+            "seed",
+            Type::Whole,
+            "draws the values at random between the two ends, the same for the same seed on every machine",
+            "1",
+        )
+        .or(Absent::Said("the values have equal distances")),
     ],
+    together: &[],
+};
+
+/// Values in a file.
+pub static FILE_VALUES: Object = Object {
+    name: "fileValues",
+    what: "values of a file",
+    doc: docs(
+        "The values of a column of a text file beside the lesson. The columns are separated by commas, semicolons or tabs.",
+    ),
+    tag: None,
+    minimal: r#"{"file": "masses.csv"}"#,
+    keys: &[
+        key("file", Type::Text, "the path of the file from this lesson", r#""masses.csv""#)
+            .must("without it there are no values"),
+        key(
+            "column",
+            Type::Text,
+            "the heading of the column, in the first line of the file",
+            r#""mass (kg)""#,
+        )
+        .or(Absent::Said("the only column")),
+    ],
+    together: &[],
+};
+
+/// A model that the lesson shows.
+pub static LISTING: Object = Object {
+    name: "listing",
+    what: "a listing",
+    doc: docs("A model that the lesson shows in a listing, for the lab of a claim."),
+    tag: None,
+    minimal: r#"{"listing": "pendulum.xml"}"#,
+    keys: &[key(
+        "listing",
+        Type::Text,
+        "the `file` of the listing: the fence begins with ```` ```xml file=pendulum.xml ````",
+        r#""pendulum.xml""#,
+    )
+    .must("without it there is no model")],
     together: &[],
 };
 

@@ -41,8 +41,32 @@ pub struct RecordedRun {
     pub refused: BTreeMap<String, String>,
     /// Number of warnings.
     pub warnings: usize,
+    /// Why measures are NaN.
+    pub without_value: BTreeMap<String, String>,
     /// How the run broke.
     pub broke: Option<String>,
+}
+
+/// A value that differs in the reference engine.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Difference {
+    /// The measure, `run.measure`, or an expression with its own aggregates.
+    pub name: String,
+    /// Our value.
+    pub ours: f64,
+    /// The reference value.
+    pub theirs: f64,
+    /// Why one of them is NaN, if that is known.
+    pub no_value: Option<String>,
+}
+
+impl Difference {
+    /// Both values, and why one of them is NaN.
+    pub fn describe(&self) -> String {
+        let [ours, theirs] = [self.ours, self.theirs].map(format_value);
+        let why = self.no_value.as_ref().map_or(String::new(), |why| format!(": {why}"));
+        format!("`{}` is {ours} here but {theirs} there{why}", self.name)
+    }
 }
 
 /// The comparison of a `verify` object with the reference engine.
@@ -50,8 +74,8 @@ pub struct RecordedRun {
 pub struct Judged {
     /// Number of compared values.
     pub compared: usize,
-    /// Values that differ: name, our value, reference value.
-    pub differing: Vec<(String, f64, f64)>,
+    /// Values that differ.
+    pub differing: Vec<Difference>,
     /// Values that the reference engine did not record, and why.
     pub unjudged: Vec<(String, String)>,
     /// Number of answers and quoted numbers that were checked again.
@@ -81,7 +105,7 @@ pub(crate) fn judge(
     let nominal = bound.outcome(StepVariant::NOMINAL, &mut Vec::new())?;
     let mut judged = Judged::default();
     let theirs = numbers::replaced(bound, verify, &nominal, reference, &mut judged);
-    numbers::compare(bound, verify, &nominal, &theirs, &mut judged);
+    numbers::compare(bound, verify, &nominal, &theirs, reference, &mut judged);
     if judged.compared == 0 {
         return Some(judged);
     }
@@ -102,14 +126,7 @@ pub(crate) fn judge(
             ),
         );
     };
-    let most: Vec<String> = judged
-        .differing
-        .iter()
-        .take(3)
-        .map(|(name, ours, theirs)| {
-            format!("`{name}` is {} here but {} there", format_value(*ours), format_value(*theirs))
-        })
-        .collect();
+    let most: Vec<String> = judged.differing.iter().take(3).map(Difference::describe).collect();
     let values = if most.is_empty() { "a run breaks in one of them".to_string() } else { most.join(", ") };
     if let (Some(ours), Some(current)) = (&ours.0, &current.0) {
         judged.claims += 1;

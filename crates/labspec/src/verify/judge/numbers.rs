@@ -1,7 +1,7 @@
 //! Substitutes the numbers of a reference engine for ours, and compares them.
 
 use super::task::own_texts;
-use super::{Judged, Reference};
+use super::{Difference, Judged, Reference};
 use crate::spec::Verify;
 use crate::verify::bound::BoundVerify;
 use crate::verify::numerics::{PERTURBED_START, TIGHT_SOLVER};
@@ -68,6 +68,7 @@ pub(super) fn compare(
     verify: &Verify,
     nominal: &MeasuredRuns,
     theirs: &MeasuredRuns,
+    reference: &Reference<'_>,
     judged: &mut Judged,
 ) {
     let mut other: Option<Vec<Vec<f64>>> = None;
@@ -100,7 +101,35 @@ pub(super) fn compare(
         });
         let moved = others.iter().filter_map(|list| list.get(i)).map(|x| (x - a).abs()).fold(0.0, f64::max);
         if difference.is_nan() || difference > NUMERICS * moved {
-            judged.differing.push((name, a, b));
+            let no_value = why_nan(reference, nominal, &name, [a, b]);
+            judged.differing.push(Difference { name, ours: a, theirs: b, no_value });
         }
     }
+}
+
+/// Why our value or the reference value of a measure is NaN.
+fn why_nan(
+    reference: &Reference<'_>,
+    nominal: &MeasuredRuns,
+    name: &str,
+    [ours, theirs]: [f64; 2],
+) -> Option<String> {
+    let runs = nominal.runs.iter().zip(&reference.runs);
+    let mut reasons = runs.filter_map(|(run, recorded)| {
+        let measure = name.strip_prefix(&run.title()).and_then(|rest| rest.strip_prefix('.'));
+        let ours_missing = || {
+            let found = run.without_value.iter().find(|(other, _)| Some(other.as_str()) == measure);
+            found.map(|(_, why)| format!("{why} here"))
+        };
+        let theirs_missing = || {
+            let why = recorded.as_ref().ok()?.without_value.get(measure.unwrap_or(name))?;
+            Some(format!("{why} there"))
+        };
+        match (ours.is_nan(), theirs.is_nan()) {
+            (true, false) => ours_missing(),
+            (false, true) => theirs_missing(),
+            _ => None,
+        }
+    });
+    reasons.next()
 }

@@ -80,7 +80,7 @@ pub(crate) fn tasks(bound: &BoundVerify<'_>, verify: &Verify) -> Vec<Task> {
 }
 
 fn title(run: &BoundRun<'_>) -> String {
-    run.swept.map_or(run.name.to_string(), |(i, _)| format!("{}[{i}]", run.name))
+    run.title()
 }
 
 /// The texts that contain their own aggregates.
@@ -104,8 +104,8 @@ fn task(
     for (label, given) in spec.iter().flat_map(|spec| &spec.set) {
         set.push((label.value.clone(), chosen(lab, label, &scalar(given))?));
     }
-    if let Some((label, x)) = run.control {
-        set.push((label.value.clone(), chosen(lab, label, &Value::Number(x))?));
+    for (label, value) in &run.controls {
+        set.push((label.value.clone(), chosen(lab, label, value)?));
     }
     let length = |given: Option<f64>| given.or(lab.stop_at.as_ref().map(|s| s.value)).unwrap_or(RUN_LENGTH);
     Ok(RunTask {
@@ -118,7 +118,7 @@ fn task(
         stop: code(spec.and_then(|s| s.stop.as_ref())),
         steps: spec.and_then(|s| s.steps.as_ref()).map(|n| n.value.max(0.0).round()),
         until: length(spec.and_then(|s| s.until.as_ref()).map(|n| n.value)),
-        measures: scene.measures.iter().map(|(name, m)| ((*name).into(), m.text.value.clone())).collect(),
+        measures: scene.measures.iter().map(|(name, m)| (name.to_string(), m.text.value.clone())).collect(),
         expressions: statements.iter().map(|t| t.value.clone()).collect(),
     })
 }
@@ -130,7 +130,7 @@ fn code(text: Option<&Text>) -> Option<String> {
 /// The value that a control gets. For a select, the text that was given is converted.
 fn chosen(lab: &Lab, label: &Text, given: &Value) -> Result<Json, String> {
     let control = lab.control(&label.value).ok_or("a control is missing")?;
-    settings::value(control, given).map(|value| plain(&value)).map_err(|e| e.0)
+    settings::value(control, given).map(|value| plain(&value)).map_err(|e| e.message)
 }
 
 fn plain(value: &Value) -> Json {

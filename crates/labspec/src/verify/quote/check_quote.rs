@@ -2,7 +2,7 @@
 //! appears.
 
 use super::messages;
-use super::number::Quoted;
+use super::number::{NumberForm, Quoted};
 use super::quote_claim::{OtherValue, QuoteClaim, QuoteOutcome, QuotePlace, QuoteState, QuoteValue};
 use super::read::{QuoteReading, Unread};
 use super::rendered::RenderedText;
@@ -142,7 +142,15 @@ impl<'q> QuoteComparison<'q> {
     /// The runs under perturbed numerics in which the printed digits change, and what they print.
     fn moved(&self, others: &[OtherValue]) -> Vec<(&'static str, String)> {
         let differs = others.iter().filter(|o| self.read.differ(self.computed, o.value));
-        differs.map(|o| (o.how, messages::printed(&self.read, o.value))).collect()
+        differs.map(|o| (o.how, self.printed(o.value))).collect()
+    }
+
+    /// A value in the digits of the quote. A value halfway may be rounded either way, as the quote does.
+    fn printed(&self, x: f64) -> String {
+        match self.read.form {
+            NumberForm::Plain(_) if self.read.is(x) => self.read.to_string(),
+            _ => messages::printed(&self.read, x),
+        }
     }
 
     /// The outcome where the digits depend on a perturbed start: they cannot be reproduced, or no run comes near them.

@@ -6,6 +6,7 @@ use super::numeral::Chars;
 use labspec_bind::units::is_wide;
 
 pub(super) const BOUND: &str = "a bound, not a number";
+pub(super) const PLUS_MINUS: &str = "a plus-minus sign without its number";
 pub(super) const FORMULA: &str = "a formula";
 pub(super) const DIFFERENCE: &str = "a difference or a range";
 const UNKNOWN_PREFIX: &str = "a number after a prefix that is not understood";
@@ -208,8 +209,8 @@ pub(super) fn before(chars: Chars<'_>, start: usize) -> Option<&'static str> {
         '<' | '>' if matches!(previous, Some('-' | '=')) && c == '>' => None,
         '<' | '>' | '≤' | '≥' | '≪' | '≫' | '≲' | '≳' => Some(BOUND),
         '=' if matches!(previous, Some('<' | '>' | '!' | '≠' | '+' | '-' | '*' | '/')) => Some(BOUND),
-        '±' | '∓' => Some("a plus-minus sign without its number"),
-        '/' if previous == Some('+') => Some("a plus-minus sign without its number"),
+        '±' | '∓' => Some(PLUS_MINUS),
+        '/' if previous == Some('+') => Some(PLUS_MINUS),
         '-' | '–' => Some(DIFFERENCE),
         '√' | '×' | '·' | '*' | '/' | '+' | '÷' | '^' | '_' | '∙' | '∕' | '⁄' | '|' | '\\' | '∝' | '≠'
         | '¬' | '#' | '@' | '!'

@@ -44,7 +44,7 @@ pub(super) fn unread(claim: &QuoteClaim<'_>, form: &str) -> Finding {
 }
 
 pub(super) fn not_found(claim: &QuoteClaim<'_>, hidden: Option<Range<usize>>) -> Finding {
-    let found = Finding::warning(
+    let found = Finding::plain(
         rules::QUOTE_NOT_FOUND,
         claim.quote.span(),
         format!(
@@ -66,7 +66,7 @@ pub(super) fn no_value(claim: &QuoteClaim<'_>, computed: f64) -> Finding {
     let (message, why) = if computed.is_nan() {
         (
             "this expression has no value in this run, so the quoted number was not checked",
-            "its event never happened (`first`, `at`, `crossing`, `period`), it divides zero by zero, or its value is not a number",
+            "it divides zero by zero, or its value is not a number",
         )
     } else {
         (
@@ -76,7 +76,7 @@ pub(super) fn no_value(claim: &QuoteClaim<'_>, computed: f64) -> Finding {
     };
     Finding::error(rules::QUOTE_WITHOUT_VALUE, claim.expr.span(), message)
         .why(why)
-        .help("make the run long enough for the event, or correct the expression")
+        .help("correct the expression")
         .related(claim.quote.span(), "the quoted number")
 }
 
@@ -155,17 +155,26 @@ pub(super) fn wrong(claim: &QuoteClaim<'_>, outcome: &QuoteOutcome, read: &Quote
     );
     let found = at_places(rules::QUOTE_WRONG, Severity::Error, claim, outcome, message)
         .why("a reader who measures it finds another number");
-    if !outcome.moved.is_empty() {
+    // The text agrees with one of these timesteps, so the author may have used it.
+    let text = read.to_string();
+    if outcome.moved.iter().any(|(_, moved)| *moved == text) {
         return found.help(format!(
             "state the timestep beside the number, and `set` it in the run: the digits depend on it, {right} as the lesson stands, {}",
             list(outcome)
         ));
     }
     found.help(match read.form {
+        NumberForm::Interval(..) => format!("write words that fit {right}, or correct the expression"),
         NumberForm::PlusMinus(..) | NumberForm::Range(..) => {
             format!("write a range that contains {right}, or correct the expression")
         }
-        _ => format!("write {right}, or correct the expression"),
+        _ if outcome.moved.is_empty() => {
+            format!("write {right} in the text and in the quote, or correct the expression")
+        }
+        _ => format!(
+            "write {right} in the text and in the quote, and state the timestep beside it: the digits depend on it, {}",
+            list(outcome)
+        ),
     })
 }
 
@@ -280,7 +289,10 @@ pub(super) fn other_unit(
         Some((text, other)) => format!(": the text is in {text}, the expression in {other}"),
         None => String::new(),
     };
-    let action = if shift.power > 0 { "multiply" } else { "divide" };
+    let (action, converted) = match shift.power > 0 {
+        true => ("multiply", format!("{factor} * ({})", claim.expr.as_str())),
+        false => ("divide", format!("({}) / {factor}", claim.expr.as_str())),
+    };
     let message = format!(
         "the text says {}{}, but the expression gives {value}; the numbers differ by exactly a power of ten",
         shorten_quote(claim),
@@ -288,6 +300,6 @@ pub(super) fn other_unit(
     );
     Finding::error(rules::QUOTE_UNIT, claim.expr.span(), format!("{message}{what}"))
         .why("only numbers in the same unit can be compared")
-        .help(format!("{action} the expression by {factor}"))
+        .help(format!("{action} the expression by {factor}: write `{converted}`"))
         .related(outcome.places.first().cloned().unwrap_or(claim.quote.span()), "the text says it here")
 }

@@ -10,6 +10,7 @@ mod hidden;
 mod html;
 mod markdown_cell;
 mod messages;
+mod modifier;
 mod number;
 mod numeral;
 mod option_text;
@@ -40,7 +41,7 @@ pub use read::{Unread, quoted};
 pub use rendered::RenderedText;
 pub use stated::{Counted, Stated, answered, claimed, counted, stated};
 pub(super) use table_cells::{cells_of_column, is_rendered_equally};
-pub(super) use unit_check::{AnswerUnit, UnitMatch, answer_unit, conversion, hold, is_unit};
+pub(super) use unit_check::{AnswerUnit, UnitMatch, answer_unit, conversion, hold, is_unit, percentage};
 pub(super) use unit_text::Unit;
 pub(super) use words::{QuotedCondition, check_words};
 

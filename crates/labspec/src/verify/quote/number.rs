@@ -31,6 +31,10 @@ pub enum NumberForm {
     PlusMinus(f64, f64),
     /// `0.4 to 0.5`: every value in the interval is right.
     Range(f64, f64),
+    /// `about 200`, `over 0.4`: every value in the interval is right.
+    Interval(f64, f64),
+    /// `±3`: the magnitude of a value.
+    Magnitude,
 }
 
 /// How digits and powers of ten are written, so that another number can be written in the same way.
@@ -47,11 +51,14 @@ impl Quoted {
     pub fn is(&self, x: f64) -> bool {
         match self.form {
             // The ends are included, with a tolerance for their rounding errors.
-            NumberForm::PlusMinus(low, high) | NumberForm::Range(low, high) => {
-                let slack = 1e-9 * low.abs().max(high.abs());
+            NumberForm::PlusMinus(low, high)
+            | NumberForm::Range(low, high)
+            | NumberForm::Interval(low, high) => {
+                let slack = 1e-9 * self.value.abs();
                 low - slack <= x && x <= high + slack
             }
             // A value halfway may be rounded either way, with a tolerance for its own rounding error.
+            NumberForm::Magnitude => Quoted { form: NumberForm::Fraction, ..*self }.is(x.abs()),
             _ => (x - self.value).abs() <= self.half_unit * (1.0 + 1e-6) + 1e-12 * self.value.abs(),
         }
     }
@@ -60,7 +67,9 @@ impl Quoted {
     pub fn print(&self, x: f64) -> String {
         let style = match self.form {
             NumberForm::Plain(style) => style,
-            NumberForm::Fraction | NumberForm::Share => Style::default(),
+            NumberForm::Fraction | NumberForm::Share | NumberForm::Interval(..) | NumberForm::Magnitude => {
+                Style::default()
+            }
             NumberForm::PlusMinus(..) | NumberForm::Range(..) => return crate::verify::significant(x),
         };
         if !x.is_finite() || x.abs() >= 1e15 && self.exponent == 0 {
@@ -125,7 +134,10 @@ impl fmt::Display for Quoted {
                 let plain = Quoted { form: NumberForm::Plain(Style { group: None, ..style }), ..*self };
                 f.write_str(&plain.print(self.value))
             }
-            NumberForm::Fraction | NumberForm::Share => f.write_str(&self.print(self.value)),
+            NumberForm::Magnitude => write!(f, "±{}", self.print(self.value)),
+            NumberForm::Fraction | NumberForm::Share | NumberForm::Interval(..) => {
+                f.write_str(&self.print(self.value))
+            }
         }
     }
 }

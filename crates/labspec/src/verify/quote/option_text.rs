@@ -1,6 +1,7 @@
 //! The quantity that the text of an option states, with its precision according to the words.
 
 use super::context::BOUND;
+use super::modifier::{APPROXIMATE, LOWER_BOUND_WORDS, UPPER_BOUND_WORDS, ends_with};
 use super::number::{NumberForm, Quoted};
 use super::numeral::Chars;
 use super::quantity::{Quantity, quantities};
@@ -82,11 +83,6 @@ pub(in crate::verify) fn option_text(option: &str) -> Option<OptionNumber> {
     Some(OptionNumber { text, low, high, unit, alone: has_no_content(&rest) })
 }
 
-/// Whether a text ends with a whole word.
-fn ends_with(text: &str, word: &str) -> bool {
-    text.strip_suffix(word).is_some_and(|rest| !rest.ends_with(char::is_alphanumeric))
-}
-
 /// Whether the words after a number make it a comparison: `7 m farther` is a change; `7 m, no more` is not.
 fn compares(behind: &str) -> bool {
     let words = behind.split_whitespace().take(3).map(|w| w.trim_matches(|c: char| !c.is_alphanumeric()));
@@ -97,49 +93,6 @@ fn compares(behind: &str) -> bool {
             && (matches!(*w, "more" | "less" | "too") || w.len() > 4 && w.ends_with("er") && *w != "under")
     })
 }
-
-/// Words before an approximate number.
-const APPROXIMATE: [&str; 13] = [
-    "about",
-    "around",
-    "roughly",
-    "approximately",
-    "nearly",
-    "almost",
-    "some",
-    "circa",
-    "ca.",
-    "~",
-    "≈",
-    "约",
-    "約",
-];
-
-/// Words before a lower bound, or an upper one.
-const LOWER_BOUND_WORDS: [&str; 10] = [
-    "more than",
-    "greater than",
-    "larger than",
-    "longer than",
-    "higher than",
-    "faster than",
-    "at least",
-    "above",
-    ">",
-    "≥",
-];
-const UPPER_BOUND_WORDS: [&str; 10] = [
-    "less than",
-    "smaller than",
-    "shorter than",
-    "lower than",
-    "slower than",
-    "at most",
-    "below",
-    "under",
-    "<",
-    "≤",
-];
 
 /// The range that agrees with a quantity, given the text before it; `None` where the words give it another meaning.
 fn stated_range(q: &Quantity, before: &str) -> Option<(f64, f64)> {

@@ -50,6 +50,7 @@ fn read(lesson: &Lesson) -> (Vec<Text>, Vec<RenderedTable>) {
         blocks: &lesson.scan.blocks,
         pieces: Vec::new(),
         tables: Tables::default(),
+        output: Vec::new(),
         open: empty(),
         html: false,
         hidden: HiddenElement::default(),
@@ -100,6 +101,8 @@ struct ProseReader<'t> {
     blocks: &'t [Block],
     pieces: Vec<Text>,
     tables: Tables,
+    /// The lines of the output that is being read, with their starts.
+    output: Vec<(String, usize)>,
     /// The piece that is being read.
     open: Text,
     html: bool,
@@ -135,6 +138,8 @@ impl ProseReader<'_> {
                 Event::End(TagEnd::CodeBlock | TagEnd::MetadataBlock(_)) => {
                     self.close();
                     fence = None;
+                    let output = std::mem::take(&mut self.output);
+                    self.tables.printed(&output);
                 }
                 Event::Start(Tag::HtmlBlock) => {
                     self.close();
@@ -282,6 +287,7 @@ impl ProseReader<'_> {
         for line in part.split_inclusive('\n') {
             self.add(line, at..at + line.len());
             self.close();
+            self.output.push((line.trim_end().to_string(), at));
             at += line.len();
         }
     }

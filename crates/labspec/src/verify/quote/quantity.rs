@@ -240,6 +240,8 @@ pub(super) fn as_share(q: &Quoted, unit: &Unit) -> Option<Quoted> {
     let form = match q.form {
         NumberForm::PlusMinus(a, b) => NumberForm::PlusMinus(scale(a), scale(b)),
         NumberForm::Range(a, b) => NumberForm::Range(scale(a), scale(b)),
+        NumberForm::Interval(a, b) => NumberForm::Interval(scale(a), scale(b)),
+        NumberForm::Magnitude => NumberForm::Magnitude,
         _ => NumberForm::Share,
     };
     Some(Quoted {

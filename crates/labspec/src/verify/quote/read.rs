@@ -1,5 +1,7 @@
 //! Reads the number that a quote states. A form that is not understood is an error that names it; nothing is guessed.
 
+use super::context::{BOUND, PLUS_MINUS};
+use super::modifier::modified;
 use super::number::{NumberForm, Quoted, Style};
 use super::numeral::Chars;
 use super::quantity::{Quantity, as_share, quantities, singles};
@@ -81,7 +83,7 @@ pub(in crate::verify) fn read_quote(text: &str) -> Result<QuoteReading, Unread> 
     if first.change {
         return Err(Unread::Form("a change from one number to another, or a range"));
     }
-    let mut reading = of_quantity(first)?;
+    let mut reading = of_quantity(chars, first)?;
     let several = "it contains more than one number";
     let others = all.get(at + 1..).unwrap_or_default();
     reading.last = others.is_empty();
@@ -95,10 +97,15 @@ pub(in crate::verify) fn read_quote(text: &str) -> Result<QuoteReading, Unread> 
 }
 
 /// The reading of one quantity.
-fn of_quantity(q: &Quantity) -> Result<QuoteReading, Unread> {
-    if let Some(form) = q.refused {
+fn of_quantity(chars: Chars<'_>, q: &Quantity) -> Result<QuoteReading, Unread> {
+    let interval = match q.refused {
+        None | Some(BOUND | PLUS_MINUS) => modified(&q.quoted, &chars.text(0, q.whole.start)),
+        Some(_) => None,
+    };
+    if let (Some(form), None) = (q.refused, interval) {
         return Err(Unread::Form(form));
     }
+    let quoted = interval.unwrap_or(q.quoted);
     if !q.quoted.value.is_finite() {
         return Err(Unread::Form("a number too large to compute with"));
     }
@@ -107,8 +114,8 @@ fn of_quantity(q: &Quantity) -> Result<QuoteReading, Unread> {
         _ => "its space may separate thousands or two numbers",
     };
     Ok(QuoteReading {
-        read: q.quoted,
-        share: q.unit.as_ref().and_then(|unit| as_share(&q.quoted, unit)),
+        read: quoted,
+        share: q.unit.as_ref().and_then(|unit| as_share(&quoted, unit)),
         ambiguities: q.ambiguities.iter().map(|&value| (Quoted { value, ..q.quoted }, why)).collect(),
         is_ambiguous: q.is_ambiguous,
         unit: q.unit.clone(),
@@ -145,15 +152,10 @@ pub(in crate::verify) fn parts(text: &str, expected: usize) -> Vec<QuotePart> {
     if all.len() != expected && single.len() == expected {
         all = single;
     }
-    let text_of = |i: usize| {
-        let from = i.checked_sub(1).and_then(|i| all.get(i)).map_or(0, |q| q.whole.end);
-        let to = all.get(i + 1).map_or(chars.0.len(), |q| q.whole.start);
-        chars.text(from, to)
-    };
     let last = all.len().saturating_sub(1);
     let part = |(i, q): (usize, &Quantity)| QuotePart {
-        text: text_of(i),
-        reading: of_quantity(q).map(|reading| QuoteReading { last: i == last, ..reading }),
+        text: chars.text(q.whole.start, q.whole.end),
+        reading: of_quantity(chars, q).map(|reading| QuoteReading { last: i == last, ..reading }),
     };
     all.iter().enumerate().map(part).collect()
 }

@@ -109,18 +109,40 @@ pub fn claimed(lesson: &Lesson) -> Vec<Range<usize>> {
 pub struct Counted {
     /// Those with a claim.
     pub claimed: Vec<Stated>,
-    /// The others, in the order of the text. Bounds are excluded, because they cannot be quoted.
+    /// The others, in the order of the text.
     pub left: Vec<Stated>,
+    /// Numbers that are not counted: bounds, which cannot be quoted, the answers of numeric questions, and the options of
+    /// questions, of which only one is right.
+    pub others: Vec<Stated>,
+}
+
+impl Counted {
+    /// The number of numbers with and without a claim.
+    pub fn count(&self) -> usize {
+        self.claimed.len() + self.left.len()
+    }
 }
 
 /// Divides the numbers of a lesson into claimed and unclaimed ones.
 pub fn counted(lesson: &Lesson) -> Counted {
-    let mut places = claimed(lesson);
-    places.extend(answered(lesson));
+    let places = claimed(lesson);
     let meets = |s: &Stated| places.iter().any(|at| at.start < s.span.end && s.span.start < at.end);
-    let (claimed, mut left): (Vec<Stated>, Vec<Stated>) = stated(lesson).into_iter().partition(meets);
-    left.retain(|s| !s.bound);
-    Counted { claimed, left }
+    let options = options(lesson);
+    let is_option = |s: &Stated| options.iter().any(|at| at.start <= s.span.start && s.span.end <= at.end);
+    let is_other = |s: &Stated| s.answer || !meets(s) && (s.bound || is_option(s));
+    let (others, counted): (Vec<Stated>, Vec<Stated>) = stated(lesson).into_iter().partition(is_other);
+    let (claimed, left) = counted.into_iter().partition(meets);
+    Counted { claimed, left, others }
+}
+
+/// The places of the options of all questions.
+fn options(lesson: &Lesson) -> Vec<Range<usize>> {
+    let questions = lesson.quizzes.iter().flat_map(Quiz::numbered).map(|(_, question)| question);
+    let options = questions.filter_map(|question| match &question.kind {
+        QuestionKind::Choice { options, .. } => Some(options),
+        _ => None,
+    });
+    options.flatten().map(Text::span).collect()
 }
 
 /// The places of the answers of numeric questions that a `value` computes.

@@ -6,7 +6,8 @@ use crate::json::nearest;
 use crate::source::{SourceMap, Text};
 use crate::spec::Column;
 
-/// The cells of a column, or the one claimed cell, each with the cell that identifies its row.
+/// The cells of a column, or the one claimed cell, each with the cell that identifies its row. A cell that is given by its number
+/// is in the only table with such a row.
 ///
 /// # Errors
 /// Why there are no cells, and the help.
@@ -14,6 +15,9 @@ pub(in crate::verify) fn cells_of_column(
     claim: &Column,
     rendered: &RenderedText,
 ) -> Result<Vec<[Text; 2]>, [String; 2]> {
+    if let Some((cell, row)) = claim.cell.zip(claim.row.as_ref()) {
+        return numbered_cell(cell, row, rendered).map(|cells| vec![cells]);
+    }
     let key = claim.by.as_ref().map(|(heading, _)| heading.as_str());
     let headings: Vec<&str> = [Some(claim.column.as_str()), key].into_iter().flatten().collect();
     let mut found = rendered.tables(&headings);
@@ -40,10 +44,6 @@ pub(in crate::verify) fn cells_of_column(
     };
     let at = |heading: &str| table.column(heading).unwrap_or(0);
     let (column, by) = (at(claim.column.as_str()), key.map_or(0, at));
-    let text = |cell: &table::TableCell| Text {
-        value: cell.text.clone(),
-        map: SourceMap::whole(cell.text.len(), cell.span.clone()),
-    };
     let row_text = claim.row.as_ref().map(|row| table::rendered(row.as_str()));
     let rows = table.rows.iter().filter_map(|row| Some([text(row.get(by)?), text(row.get(column)?)]));
     let cells: Vec<[Text; 2]> =
@@ -55,6 +55,39 @@ pub(in crate::verify) fn cells_of_column(
             "write the text in the first cell of the row".into(),
         ]),
         (true, None) => Err(["this table has no rows".into(), "add rows to the table".into()]),
+    }
+}
+
+fn text(cell: &table::TableCell) -> Text {
+    Text { value: cell.text.clone(), map: SourceMap::whole(cell.text.len(), cell.span.clone()) }
+}
+
+/// A cell of the only row that begins with a text, after the first cell of the row.
+///
+/// # Errors
+/// Why there is no such cell, and the help.
+fn numbered_cell(cell: usize, row: &Text, rendered: &RenderedText) -> Result<[Text; 2], [String; 2]> {
+    let first = table::rendered(row.as_str());
+    let mut rows = rendered
+        .tables(&[])
+        .flat_map(|table| &table.rows)
+        .filter(|row| row.first().is_some_and(|cell| cell.text == first));
+    match (rows.next(), rows.next()) {
+        (Some(cells), None) => match cells.first().zip(cells.get(cell)) {
+            Some((key, found)) => Ok([text(key), text(found)]),
+            None => Err([
+                format!("the row \"{}\" has {} cells, so it has no cell {cell} after the first", row.value, cells.len()),
+                "write one expression for each cell after the first, and `null` for a cell that is not claimed".into(),
+            ]),
+        },
+        (None, _) => Err([
+            format!("no row of a table begins with \"{}\"", row.value),
+            "write the text in the first cell of the row".into(),
+        ]),
+        (Some(_), Some(_)) => Err([
+            format!("several rows begin with \"{}\"", row.value),
+            "name the column with `column`, or write the claim in a comment before the table".into(),
+        ]),
     }
 }
 

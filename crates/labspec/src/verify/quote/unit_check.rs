@@ -1,7 +1,7 @@
 //! Compares the unit of a text, or of a numeric question, with the dimension of an expression, and determines the
 //! conversion between them.
 
-use super::unit_text::{Link, Unit};
+use super::unit_text::{Link, Unit, share};
 use crate::bind::contradicts;
 use labspec_bind::units::{self, written};
 use labspec_expr::dimension::Dimension;
@@ -85,6 +85,11 @@ impl AnswerUnit {
             AnswerUnit::Wrong(..) | AnswerUnit::Unread(..) | AnswerUnit::Unknown => 1.0,
         }
     }
+}
+
+/// Factor that converts a fraction of one to the unit of a question; `None` unless this is a percentage.
+pub(in crate::verify) fn percentage(unit: &str) -> Option<f64> {
+    share(&super::table::rendered(unit)).map(|power| 10f64.powi(-power))
 }
 
 /// Whether a text is a known unit.

@@ -33,14 +33,19 @@ pub(in crate::verify) enum Link {
     Clause,
 }
 
+/// The power of ten that converts a number in this unit to a fraction of one: -2 for a percentage.
+pub(super) fn share(unit: &str) -> Option<i32> {
+    match unit {
+        "%" | "percent" | "per cent" | "pct" | "Prozent" => Some(-2),
+        "‰" | "per mille" | "permille" => Some(-3),
+        _ => None,
+    }
+}
+
 impl Unit {
     /// The power of ten that converts it to a fraction of one: -2 for a percentage.
     pub(super) fn share(&self) -> Option<i32> {
-        match self.text.as_str() {
-            "%" | "percent" | "per cent" | "pct" | "Prozent" => Some(-2),
-            "‰" | "per mille" | "permille" => Some(-3),
-            _ => None,
-        }
+        share(&self.text)
     }
 
     /// Whether it follows its number or is shared with another one, and is not a name of counted things.

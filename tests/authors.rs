@@ -1,0 +1,534 @@
+//! What an author meets: the first commands, an old course with a baseline and routes, numbers in explanations, shared runs, advice
+//! that ends in a working lesson, and proposals without coincidences.
+
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+use crate::program::{Done, folder, run_in};
+use crate::support::{check_text, codes};
+use labspec::bind::scene::Models;
+use labspec::finding::Finding;
+use labspec::lint::{ModelFolder, load_lesson};
+use labspec::source::SourceFile;
+use labspec::verify::Verdict;
+use labspec_proposals::scaffold::{Scaffold, ScaffoldOutcome, scaffold};
+use labspec_proposals::trace::{Origin, trace};
+use serde_json::{Value, json};
+use std::path::Path;
+
+const BALL: &str = "<mujoco><worldbody><geom name='floor' type='plane' size='9 9 1'/><body name='ball' pos='0 0 1'><freejoint name='ball'/><geom name='ball' size='0.05' mass='1'/></body></worldbody></mujoco>";
+
+fn write(folder: &Path, name: &str, text: &str) {
+    let path = folder.join(name);
+    std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+    std::fs::write(path, text).unwrap();
+}
+
+/// A lesson with a lab that has a question with a verified answer.
+fn lesson(id: &str) -> String {
+    let lab =
+        json!({"xml": BALL, "stopAt": 0.6, "readouts": [{"label": "height (m)", "expr": "data.qpos[2]"}]});
+    let quiz = json!({"id": id, "questions": [{"q": "Where does it go?", "options": ["down", "up"], "answer": 0,
+        "verify": {"lab": "#1", "measure": {"z": "final(data.qpos[2])"}, "options": ["z < 0.9", "z > 1.1"]}}]});
+    format!("# A ball\n\n```lab simlab\n{lab}\n```\n\n```quiz\n{quiz}\n```\n")
+}
+
+#[test]
+fn the_first_commands() {
+    let folder = folder();
+    write(folder.path(), "lessons/a.md", &lesson("a"));
+    write(folder.path(), "lessons/b.md", &lesson("b"));
+    let lessons = folder.path().join("lessons");
+    // Without a path, the folder; each clean lesson has one line.
+    let done = run_in(&lessons, &["check"]);
+    assert_eq!(done.code, 0, "{} {}", done.stdout, done.stderr);
+    let lines: Vec<&str> = done.stdout.lines().filter(|line| !line.is_empty()).collect();
+    assert_eq!(lines.len(), 3, "{}", done.stdout);
+    assert!(lines[0].contains("a.md") && lines[0].contains("1 answer verified"), "{}", lines[0]);
+    assert!(
+        lines[2].starts_with("2 files, 2 labs run, 2 answers verified: no problems found"),
+        "{}",
+        lines[2]
+    );
+    // One line, without the findings.
+    write(folder.path(), "lessons/c.md", "# C\n\n[gone](nowhere.md)\n");
+    let done = run_in(&lessons, &["check", "-q"]);
+    assert_eq!((done.code, done.stdout.lines().count()), (1, 1), "{}", done.stdout);
+    assert!(done.stdout.contains("1 warning"), "{}", done.stdout);
+    // The workflow's log has the summary.
+    let done = run_in(&lessons, &["check", "--format", "github"]);
+    let last = done.stdout.lines().last().unwrap();
+    assert!(done.stdout.starts_with("::warning") && last.starts_with("3 files, "), "{}", done.stdout);
+    let done = run_in(&lessons, &["check", "a.md", "--format", "github"]);
+    assert_eq!(done.stdout, "1 file, 1 lab run, 1 answer verified: no problems found\n");
+}
+
+#[test]
+fn a_baseline_contains_the_findings_of_the_whole_course() {
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), "a.md", &lesson("same"));
+    write(folder.path(), "b.md", &lesson("same"));
+    let check =
+        |more: &[&str]| run_in(folder.path(), &[&["check", ".", "--baseline", "known.json"], more].concat());
+    let first = check(&["--update-baseline"]);
+    assert!(first.stdout.contains("duplicate-id"), "{}", first.stdout);
+    let again = check(&[]);
+    assert_eq!(again.code, 0, "{}", again.stdout);
+    assert!(!again.stdout.contains("duplicate-id"), "{}", again.stdout);
+    // A new finding is reported.
+    write(folder.path(), "c.md", &lesson("same"));
+    let new = check(&[]);
+    assert!(new.code == 1 && new.stdout.contains("c.md"), "{}", new.stdout);
+}
+
+#[test]
+fn routes_of_a_site_are_checked() {
+    let folder = folder();
+    write(
+        folder.path(),
+        "lessons/0.1-falling.md",
+        "# Falling\n\n[next](#/lesson/0.2) and [home](#/lesson/0.1?tab=1)\n",
+    );
+    let check = || run_in(folder.path(), &["check", "lessons"]);
+    let done = check();
+    assert!(done.stdout.contains("no setting states which file it is"), "{}", done.stdout);
+    write(folder.path(), "labspec.toml", "[routes]\n\"#/lesson/{}\" = \"lessons/{}-*.md\"\n");
+    let done = check();
+    assert_eq!(done.stdout.matches("dead-link").count(), 1, "{}", done.stdout);
+    assert!(done.stdout.contains("there is no file `lessons/0.2-*.md`"), "{}", done.stdout);
+    write(folder.path(), "lessons/0.2-rolling.md", "# Rolling\n");
+    assert!(!check().stdout.contains("dead-link"));
+    write(folder.path(), "labspec.toml", "[routes]\n\"/lesson/{}\" = \"lessons/{}.md\"\n");
+    assert_eq!(check().code, 2);
+}
+
+#[test]
+fn the_settings_of_a_lesson_are_shown_with_their_origin() {
+    let folder = folder();
+    write(folder.path(), "models/ball.xml", BALL);
+    write(folder.path(), "drafts/a.md", "# A\n");
+    write(
+        folder.path(),
+        "labspec.toml",
+        "ignore = [\"duplicate-readout\"]\nwidgets = [\"playground\"]\n[routes]\n\"#/l/{}\" = \"{}.md\"\n[[paths]]\nmatch = [\"drafts/**\"]\ndeny = [\"warnings\"]\n",
+    );
+    let done = run_in(folder.path(), &["config", "drafts/a.md", "--ignore", "idle-control"]);
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    for part in [
+        "duplicate-readout  (labspec.toml)",
+        "idle-control       (command line)",
+        "(labspec.toml, [[paths]] drafts/**)",
+        "#/l/{} = {}.md",
+        "playground",
+        "select   all",
+        "models   ",
+    ] {
+        assert!(done.stdout.contains(part), "{part}: {}", done.stdout);
+    }
+    assert_eq!(run_in(folder.path(), &["config", "gone.md"]).code, 2);
+}
+
+/// A question about a fall whose explanation states numbers.
+fn explained(explain: &str, says: &Value) -> Vec<Finding> {
+    let lab = json!({"xml": BALL, "stopAt": 0.6,
+        "controls": [{"label": "height", "unit": "m", "apply": "data.qpos[2] = value", "min": 0.5, "max": 2, "step": 0.1, "value": 1, "init": true}],
+        "readouts": [{"label": "z (m)", "expr": "data.qpos[2]"}]});
+    let verify = json!({"lab": "#1", "runs": {"run": {"set": {"height": 1.5}}}, "measure": {"t": "first(contact('ball', 'floor'))"},
+        "options": ["run.t > 0.5", "run.t < 0.3"], "says": says});
+    let quiz = json!({"id": "q", "questions": [{"q": "It falls by 1.45 m. When does it land?", "options": ["late", "early"], "answer": 0,
+        "explain": explain, "verify": verify}]});
+    let text = format!("```lab simlab\n{lab}\n```\n\n```quiz\n{quiz}\n```\n");
+    check_text("a.md", &text).findings
+}
+
+#[test]
+fn numbers_in_the_explanation_of_a_verified_question_are_checked() {
+    let found = explained("It lands after 0.546 s, or after 0.480 s.", &json!([["0.546 s", "run.t"]]));
+    let of_rule: Vec<&Finding> = found.iter().filter(|f| f.code == "explanation-unclaimed").collect();
+    let [f] = of_rule.as_slice() else { panic!("{found:#?}") };
+    assert!(f.message.contains("0.480 s"), "{f:#?}");
+    // What the question or a setting gives is no result.
+    let found =
+        explained("From 1.5 m it falls by 1.45 m and lands after 0.546 s.", &json!([["0.546 s", "run.t"]]));
+    assert!(!found.iter().any(|f| f.code == "explanation-unclaimed"), "{found:#?}");
+}
+
+#[test]
+fn an_inline_lab_is_shared() {
+    let quiz = json!({"id": "u", "questions": [
+        {"q": "How does it move?", "options": ["down", "up"], "answer": 0, "verify": {"lab": {"xml": BALL, "stopAt": 0.6, "readouts": []},
+            "runs": {"fall": {}}, "measure": {"z": "final(data.qpos[2])", "t": "first(contact('ball', 'floor'))"}, "options": ["fall.z < 1", "fall.z > 1"]}},
+        {"kind": "numeric", "q": "When does it land?", "answer": 0.44, "tol": 0.01, "unit": "s", "verify": {"use": "#u.1", "value": "fall.t"}}]});
+    let checked = check_text("a.md", &format!("```quiz\n{quiz}\n```\n"));
+    let verdicts: Vec<Verdict> =
+        checked.claims.iter().filter_map(|c| c.judgement.answer.as_ref()).map(|a| a.verdict).collect();
+    assert_eq!(verdicts, [Verdict::Verified; 2], "{:#?}", checked.findings);
+}
+
+#[test]
+fn runs_and_measures_are_defined_once() {
+    let lab = json!({"xml": BALL, "stopAt": 0.6, "readouts": []});
+    let definition = json!({"lab": "#1", "runs": {"fall": {}}, "measure": {"t": "first(contact('ball', 'floor'))", "z": "final(data.qpos[2])"}});
+    let quiz = json!({"id": "q", "questions": [{"kind": "numeric", "q": "When does it land?", "answer": 0.44, "tol": 0.01, "unit": "s", "verify": {"use": "falls", "value": "fall.t"}}]});
+    let text = |name: &str, used: &str| {
+        let quiz = quiz.to_string().replace("\"falls\"", &format!("\"{used}\""));
+        format!(
+            "```lab simlab\n{lab}\n```\n\n<!-- labspec define {name} {definition} -->\n\n<!-- labspec verify {{\"use\": \"{used}\", \"says\": [[\"0.442 s\", \"fall.t\"]]}} -->\nIt lands after 0.442 s.\n\n```quiz\n{quiz}\n```\n"
+        )
+    };
+    let checked = check_text("a.md", &text("falls", "falls"));
+    let quotes: Vec<&str> =
+        checked.claims.iter().flat_map(|c| &c.judgement.quotes).map(|q| q.verdict()).collect();
+    assert_eq!(quotes, ["verified"], "{:#?}", checked.findings);
+    let answer = checked.claims.iter().find_map(|c| c.judgement.answer.as_ref()).unwrap();
+    assert_eq!(answer.verdict, Verdict::Verified);
+    // A name that nothing defines is one finding for each object.
+    let checked = check_text("a.md", &text("falls", "fals"));
+    assert!(codes(&checked).iter().filter(|c| **c == "unknown-lab").count() == 2, "{:#?}", checked.findings);
+    // A definition needs a name.
+    assert!(codes(&check_text("a.md", &text("", "falls"))).contains(&"wrong-type"));
+}
+
+#[test]
+fn an_object_with_errors_accuses_nobody() {
+    for runs in
+        [json!([{"until": 1}]), json!({"run": {"untill": 1}}), json!({"run": {"set": {"nothing": 1}}})]
+    {
+        let lab = json!({"xml": BALL, "stopAt": 0.6, "note": "It lands after 9 s.", "readouts": [],
+            "verify": {"runs": runs, "measure": {"t": "first(contact('ball', 'floor'))"}, "says": [["9 s", "t"]]}});
+        let checked = check_text("a.md", &format!("```lab simlab\n{lab}\n```\n"));
+        let found = codes(&checked);
+        assert!(!found.contains(&"quote-wrong") && found.len() == 1, "{runs}: {:#?}", checked.findings);
+    }
+}
+
+/// The help of each mistake leads to a lesson without it.
+#[test]
+fn advice_does_not_lead_in_a_circle() {
+    let lab = |control: &str, readout: &str| {
+        let lab = json!({"xml": BALL, "stopAt": 0.1, "controls": [{"label": "mass", "unit": "kg", "set": control, "min": 1, "max": 2, "step": 0.5, "value": 1, "reset": true}],
+            "readouts": [{"label": "z", "expr": readout}]});
+        check_text("a.md", &format!("```lab simlab\n{lab}\n```\n")).findings
+    };
+    let help = |findings: &[Finding], code: &str| {
+        let f = findings.iter().find(|f| f.code == code).unwrap_or_else(|| panic!("{code}: {findings:#?}"));
+        format!("{} {} {}", f.message, f.why.clone().unwrap_or_default(), f.help.clone().unwrap_or_default())
+    };
+    let mass = "model.body('ball').mass";
+    assert!(help(&lab(mass, "data.time"), "assign-array").contains("`model.body('ball').mass[0]`"));
+    assert!(!lab(&format!("{mass}[0]"), "data.time").iter().any(Finding::is_error));
+    let body = help(&lab(&format!("{mass}[0]"), "data.body('ball').qpos[2]"), "unknown-field");
+    assert!(body.contains("data.joint('ball').qpos[2]"), "{body}");
+    assert!(help(&lab(&format!("{mass}[0]"), "np.sqrt(2)"), "not-in-language").contains("Math.sqrt"));
+    let unknown = help(&lab(&format!("{mass}[0]"), "T + 1"), "unknown-name");
+    assert!(unknown.contains("`ctx.T = …` in `setup`") && !unknown.contains("const"), "{unknown}");
+}
+
+/// The origins of the numbers of a text beside a lab with sliders.
+fn origins(text: &str) -> Vec<(String, Origin)> {
+    let lab = json!({"xml": "<mujoco><worldbody><body name='arm'><joint name='shoulder' type='hinge' axis='0 1 0'/><geom name='arm' type='capsule' fromto='0 0 0 0.5 0 0' size='0.03' mass='1'/></body></worldbody><actuator><motor name='shoulder' joint='shoulder' ctrlrange='-25 25'/></actuator></mujoco>",
+        "stopAt": 2, "controls": [
+            {"label": "shoulder target", "unit": "rad", "param": "q", "min": -1, "max": 1, "step": 0.01, "value": 0.5},
+            {"label": "duration", "unit": "s", "param": "T", "min": 0.05, "max": 3, "step": 0.01, "value": 1}],
+        "controller": "data.ctrl[0] = Math.max(-25, Math.min(25, 400 * (ctx.q - data.qpos[0]) - 5 * data.qvel[0])) + 0 * ctx.T",
+        "readouts": [{"label": "torque (N m)", "expr": "data.actuator_force[0]"}, {"label": "angle (rad)", "expr": "data.qpos[0]"}]});
+    let lesson = load_lesson(
+        SourceFile::new("a.md", format!("{text}\n\n```lab simlab\n{lab}\n```\n")),
+        &ModelFolder::unknown(),
+    );
+    let models = Models::new(ModelFolder::unknown());
+    let found = trace(&lesson, &models, &mut |_| ());
+    found.numbers.into_iter().map(|n| (n.stated.quote, n.origin)).collect()
+}
+
+#[test]
+fn coincidences_are_no_origins() {
+    for text in [
+        "Of the speed, 73 % remains.",
+        "The first impact comes after 0.45 s.",
+        "The motor gives at most 25 N m of torque.",
+        "The can has a radius of 30 mm.",
+        "The lab runs for 2 s.",
+    ] {
+        for (quote, origin) in origins(text) {
+            assert!(!matches!(origin, Origin::From(_) | Origin::Setting(_)), "{text}: {quote} is {origin:?}");
+        }
+    }
+    let setting =
+        |text: &str| origins(text).into_iter().any(|(_, origin)| matches!(origin, Origin::Setting(_)));
+    assert!(setting("With a shoulder target of 0.73 rad it rises."));
+    assert!(setting("The duration is 0.45 s."));
+    assert!(!setting("It takes 0.45 s."));
+    let named = origins("The arm has a radius of 30 mm.");
+    assert!(matches!(&named[0].1, Origin::From(hit) if hit.measure.contains(".size[0]")), "{named:?}");
+}
+
+/// The origins of the lengths of a text beside a falling ball whose height starts at 1 m.
+fn lengths(text: &str) -> Vec<Origin> {
+    let lab = json!({"xml": BALL, "stopAt": 0.3, "readouts": [{"label": "height (m)", "expr": "data.qpos[2]", "digits": 3}],
+        "controls": [{"label": "lift", "unit": "m", "apply": "data.qpos[2] = 1 + value", "min": 0, "max": 1, "step": 0.001, "value": 0, "init": true, "reset": true}]});
+    let text = format!("{text}\n\n```lab simlab\n{lab}\n```\n");
+    let models = Models::new(ModelFolder::unknown());
+    let lesson = load_lesson(SourceFile::new("a.md", text), models.folder());
+    let found = trace(&lesson, &models, &mut |_| ());
+    found.numbers.into_iter().map(|n| n.origin).collect()
+}
+
+/// A length of an object is no height, and of two numbers with the same origin, the coarser one is another quantity.
+#[test]
+fn numbers_of_objects_and_coarser_numbers_are_no_results() {
+    let is_traced = |origin: &Origin| matches!(origin, Origin::From(_));
+    assert!(lengths("The ball falls from a height of 1.000 m.").iter().all(is_traced));
+    assert!(!lengths("A rod of 1.000 m lies below its height.").iter().any(is_traced));
+    assert!(!lengths("Its height is that of the 1.000 m rod.").iter().any(is_traced));
+    let both = lengths("At the end its height is 0.556 m, close to the 0.56 m of the formula.");
+    assert_eq!(both.iter().map(is_traced).collect::<Vec<_>>(), [true, false], "{both:#?}");
+}
+
+#[test]
+fn what_a_listing_printed_is_named() {
+    let found = origins(
+        "The gain is 31.847 here.\n\n```python\nprint(gain)\n```\n\n```text\ngain 31.847 N\n```\n\nIt is 31.847 N.",
+    );
+    assert!(found.iter().any(|(_, origin)| matches!(origin, Origin::Listed(7))), "{found:?}");
+}
+
+const PENDULUM: &str = "<mujoco><worldbody><body name='bob'><joint name='swing' type='hinge' axis='0 1 0'/><geom name='bob' pos='0 0 -0.5' size='0.01' mass='1'/></body></worldbody></mujoco>";
+
+/// The outcome of one question beside a pendulum with three controls.
+fn asked(question: &Value) -> Scaffold {
+    let lab = json!({"xml": PENDULUM, "stopAt": 6, "setup": "data.qpos[0] = 0.1", "controls": [
+        {"label": "mass of the bob", "unit": "kg", "apply": "const m = model.body_mass[1]; model.body_mass[1] = value; for (let i = 3; i < 6; i++) model.body_inertia[i] *= value / m; mj.mj_setConst(model, data)", "min": 0.5, "max": 10, "step": 0.5, "value": 1, "reset": true},
+        {"label": "gravity", "unit": "m/s²", "apply": "model.opt.gravity[2] = -value", "min": 1.62, "max": 9.81, "value": 9.81, "reset": true},
+        {"type": "select", "label": "start", "options": [["small", 0.1], ["wide", 1.5]], "value": 0.1, "apply": "data.qpos[0] = value", "init": true, "reset": true}],
+        "plots": [{"ylabel": "angle (rad)", "traces": [{"label": "angle (rad)", "expr": "data.qpos[0]"}]}],
+        "readouts": [{"label": "speed (rad/s)", "expr": "data.qvel[0]"}]});
+    let quiz = json!({"id": "sw", "questions": [question]});
+    let text = format!("```lab simlab\n{lab}\n```\n\n```quiz\n{quiz}\n```\n");
+    let models = Models::new(ModelFolder::unknown());
+    let lesson = load_lesson(SourceFile::new("a.md", text), models.folder());
+    let all = scaffold(&lesson, &models, &mut |_| ());
+    all.into_iter().find(|one| one.name.starts_with("quiz")).unwrap()
+}
+
+fn choice(q: &str, options: &[&str], answer: usize) -> Value {
+    json!({"kind": "mcq", "q": q, "options": options, "answer": answer})
+}
+
+#[test]
+fn questions_about_a_control_are_decided_by_it() {
+    let period = ["It grows", "It stays the same", "It shrinks"];
+    for (question, run, measure) in [
+        (
+            choice("The bob becomes ten times as heavy. What happens to the period?", &period, 1),
+            "mass of the bob",
+            "period(",
+        ),
+        (
+            choice(
+                "You take the pendulum to the Moon (1.62 m/s²). How does the period change?",
+                &[
+                    "It is the same",
+                    "It is about 2.5 times as long",
+                    "It is about 6 times as long",
+                    "It is shorter",
+                ],
+                1,
+            ),
+            "gravity",
+            "period(",
+        ),
+        (
+            choice(
+                "You start it wide instead of small. Is the period longer?",
+                &["Yes, longer", "No, equal", "No, shorter"],
+                0,
+            ),
+            "start",
+            "period(",
+        ),
+        (
+            choice(
+                "With a lower gravity, what is the sign of the change of the largest speed?",
+                &["positive", "negative"],
+                1,
+            ),
+            "gravity",
+            "max(data.qvel[0])",
+        ),
+    ] {
+        let one = asked(&question);
+        let ScaffoldOutcome::Proposed { verify, verdict: Some((Verdict::Verified, _)), .. } = &one.found
+        else {
+            panic!("{question}: {one:#?}")
+        };
+        let verify = serde_json::to_value(verify).unwrap();
+        let sets =
+            |key: &str| verify["runs"].as_object().unwrap().values().any(|r| r["set"].get(key).is_some());
+        assert!(sets(run), "{question}: {verify:#}");
+        assert!(verify["measure"].to_string().contains(measure), "{question}: {verify:#}");
+        // Another key is contradicted.
+        let mut moved = question.clone();
+        moved["answer"] = json!(
+            (question["answer"].as_u64().unwrap() + 1) % question["options"].as_array().unwrap().len() as u64
+        );
+        assert!(matches!(asked(&moved).found, ScaffoldOutcome::Contradicted { .. }), "{question}");
+    }
+}
+
+/// What the words do not decide is not decided by chance: there is a skeleton, or nothing.
+#[test]
+fn questions_that_are_not_understood_get_a_skeleton() {
+    let skeleton = |question: &Value| match asked(question).found {
+        ScaffoldOutcome::Skeleton { verify, why } => Some((serde_json::to_value(verify).unwrap(), why)),
+        ScaffoldOutcome::Open(_) => None,
+        other => panic!("{question}: {other:#?}"),
+    };
+    let grows = ["It grows", "It shrinks"];
+    // The quantity is unknown: the runs are filled in.
+    let (verify, why) =
+        skeleton(&choice("The bob becomes ten times as heavy. What happens to the sound?", &grows, 0))
+            .unwrap();
+    assert!(
+        verify["runs"].as_object().unwrap().len() == 2 && why.contains("names no quantity"),
+        "{verify:#} {why}"
+    );
+    assert_eq!(verify["options"], json!(["undecided", "undecided"]));
+    // No control is named.
+    assert!(skeleton(&choice("The rope gets longer. What happens to the period?", &grows, 0)).is_none());
+    // The words of the options state nothing.
+    let (verify, why) =
+        skeleton(&choice("On the Moon, what happens to the period?", &["It sings", "It dances"], 0)).unwrap();
+    assert!(
+        verify["measure"].to_string().contains("period(") && why.contains("words of its options"),
+        "{verify:#} {why}"
+    );
+}
+
+#[test]
+fn one_object_is_written_in_the_style_of_the_lesson() {
+    let folder = folder();
+    let lab = json!({"xml": PENDULUM, "stopAt": 6, "setup": "data.qpos[0] = 0.1", "controls": [{"label": "gravity", "unit": "m/s²", "apply": "model.opt.gravity[2] = -value", "min": 1.62, "max": 9.81, "value": 9.81, "reset": true}],
+        "readouts": [{"label": "angle (rad)", "expr": "data.qpos[0]"}]});
+    let question = |q: &str| {
+        format!(
+            "        {{\n            \"kind\": \"mcq\",\n            \"q\": \"{q}\",\n            \"options\": [\"longer\", \"shorter\"],\n            \"answer\": 0\n        }}"
+        )
+    };
+    let quiz = format!(
+        "{{\n    \"id\": \"sw\",\n    \"questions\": [\n{},\n{}\n    ]\n}}",
+        question("With a lower gravity, what happens to the period?"),
+        question("With a lower gravity, what happens to the sound?")
+    );
+    write(folder.path(), "a.md", &format!("```lab simlab\n{lab}\n```\n\n```quiz\n{quiz}\n```\n"));
+    let text = || std::fs::read_to_string(folder.path().join("a.md")).unwrap();
+    let run =
+        |arguments: &[&str]| -> Done { run_in(folder.path(), &[&["scaffold", "a.md"], arguments].concat()) };
+    let proposed = run(&[]);
+    assert!(
+        proposed.stdout.contains("in these runs, the key holds") && !proposed.stdout.contains("verified"),
+        "{}",
+        proposed.stdout
+    );
+    assert!(proposed.stdout.contains("a skeleton, which `--write sw.2` inserts"), "{}", proposed.stdout);
+    let unknown = run(&["--write", "sw.9"]);
+    assert!(unknown.code == 2 && unknown.stderr.contains("did you mean"), "{}", unknown.stderr);
+    run(&["--write", "sw.2"]);
+    assert_eq!(text().matches("\"verify\"").count(), 1);
+    assert!(
+        text().contains(
+            "\n            \"verify\": {\n                \"lab\": \"#1\",\n                \"runs\": {\n"
+        ),
+        "{}",
+        text()
+    );
+    run(&["--write"]);
+    assert_eq!(text().matches("\"verify\"").count(), 2);
+    assert!(text().contains("\"period\": \"period(data.qpos[0])\""), "{}", text());
+}
+
+/// A damaged fence explains a missing lab, unless the number is beyond all labs.
+#[test]
+fn a_damaged_fence_explains_only_its_own_lab() {
+    let lesson = |address: &str| {
+        let quiz = json!({"id": "q", "questions": [{"kind": "numeric", "q": "How long?", "answer": 1, "verify": {"lab": address, "value": "final(data.time)"}}]});
+        format!("```lab simlabb\n{{\"xml\": \"<mujoco/>\"}}\n```\n\n```quiz\n{quiz}\n```\n")
+    };
+    let codes = |address: &str| -> Vec<&str> {
+        check_text("fence.md", &lesson(address)).findings.iter().map(|f| f.code).collect()
+    };
+    assert!(!codes("#1").contains(&"unknown-lab"), "{:?}", codes("#1"));
+    assert!(codes("#7").contains(&"unknown-lab"), "{:?}", codes("#7"));
+}
+
+/// The blocks of a widget that the settings declare are checked with its schema, at the place of each mistake.
+#[test]
+fn blocks_of_widgets_fit_their_schemas() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    write(
+        "map.json",
+        r#"{"type": "object", "required": ["place"], "properties": {"place": {"type": "string"}, "zoom": {"type": "number", "minimum": 1}}, "additionalProperties": false}"#,
+    );
+    write("labspec.toml", "[widgets]\nmap = \"map.json\"\ngallery = true\n");
+    let check = |block: &str| {
+        write(
+            "a.md",
+            &format!(
+                "# A map\n\n```lab map\n{block}\n```\n\n```lab gallery\n{{\"any\": 1}}\n```\n\n```lab simlab\n{{\"xml\": \"{BALL}\"}}\n```\n"
+            ),
+        );
+        run_in(folder.path(), &["check", "a.md", "--format", "concise"])
+    };
+    let clean = check(r#"{"place": "Rome", "zoom": 3}"#);
+    assert_eq!(clean.code, 0, "{}", clean.stdout);
+    let wrong = check("{\"zoom\": 0,\n \"plase\": \"Rome\"}");
+    assert_eq!(wrong.code, 1);
+    for line in [
+        "a.md:4:1: error[widget-schema]: this does not fit the schema of `map`: `place` is missing",
+        "a.md:4:10: error[widget-schema]: this does not fit the schema of `map`: 0 is below 1",
+        "a.md:5:3: error[widget-schema]: this does not fit the schema of `map`: `plase` is not one of its keys",
+    ] {
+        assert!(wrong.stdout.contains(line), "{line}: {}", wrong.stdout);
+    }
+    // A schema that cannot be used is an error of the settings: nothing is checked.
+    for (schema, words) in [("{\"pattern\": \"a\"}", "`pattern` is not supported"), ("{", "invalid JSON")] {
+        write("map.json", schema);
+        let done = check("{}");
+        assert!(done.code == 2 && done.stderr.contains(words), "{}", done.stderr);
+    }
+    std::fs::remove_file(folder.path().join("map.json")).unwrap();
+    assert_eq!(check("{}").code, 2);
+}
+
+/// A slider for a parameter of one geom: every component is observed, and so is a contact that comes late.
+#[test]
+fn mixed_parameters_of_contacts_are_observed() {
+    let lab = |height: f64, slider: &str| {
+        let xml = format!(
+            "<mujoco><worldbody><geom name='floor' type='plane' size='9 9 1' solref='0.02 1'/><body pos='0 0 {height}'><freejoint/><geom name='ball' size='0.1' condim='6'/></body></worldbody></mujoco>"
+        );
+        let lab = json!({"xml": xml, "stopAt": 3, "controls": [slider_of(slider)], "readouts": [{"label": "height (m)", "expr": "data.qpos[2]"}]});
+        check_text("a.md", &format!("```lab simlab\n{lab}\n```\n")).findings
+    };
+    let mixed =
+        |findings: &[Finding]| findings.iter().find(|f| f.code == "mixed-away").and_then(|f| f.help.clone());
+    // The contact comes after 1.3 s, 650 steps.
+    for height in [0.1, 8.5] {
+        let help = mixed(&lab(height, "model.geom_solref[3]")).unwrap_or_default();
+        assert!(help.contains("model.geom('floor').solref[1] = value"), "{height}: {help}");
+        let help = mixed(&lab(height, "model.geom_friction[4]")).unwrap_or_default();
+        assert!(help.contains("model.geom('floor').friction[1] = value"), "{height}: {help}");
+        let help = mixed(&lab(height, "model.geom_solimp[6]")).unwrap_or_default();
+        assert!(help.contains("model.geom('floor').solimp[1] = value"), "{height}: {help}");
+    }
+}
+
+fn slider_of(target: &str) -> Value {
+    // The other geom has 1, 0.005 and 0.95.
+    let (min, max, value) = match target.split('[').next().unwrap_or("") {
+        "model.geom_solref" => (0.1, 1.0, 0.5),
+        "model.geom_friction" => (0.001, 0.004, 0.002),
+        _ => (0.91, 0.99, 0.92),
+    };
+    json!({"label": "parameter", "set": target, "min": min, "max": max, "step": (max - min) / 3.0, "value": value, "init": true})
+}
