@@ -490,6 +490,20 @@ fn blocks_of_widgets_fit_their_schemas() {
     ] {
         assert!(wrong.stdout.contains(line), "{line}: {}", wrong.stdout);
     }
+    // A lesson with nothing but such a widget is checked, and so is it where its JSON is damaged or has another schema's keys.
+    let alone = |block: &str| {
+        write("alone.md", &format!("# A map\n\n```lab map\n{block}\n```\n"));
+        let done = run_in(folder.path(), &["check", "alone.md"]);
+        (done.code, done.stdout.lines().last().unwrap_or_default().to_string())
+    };
+    assert_eq!(
+        alone(r#"{"place": "Rome"}"#),
+        (0, "1 file, 1 widget valid: no problems found".into())
+    );
+    for (block, errors) in [("{}", "1 error"), ("{\"place\": ", "")] {
+        let (code, last) = alone(block);
+        assert!(code == 1 && last.contains("1 widget invalid") && last.contains(errors), "{last}");
+    }
     // A schema that cannot be used is an error of the settings: nothing is checked.
     for (schema, words) in [("{\"pattern\": \"a\"}", "`pattern` is not supported"), ("{", "invalid JSON")] {
         write("map.json", schema);

@@ -128,8 +128,9 @@ fn all_saved_lessons_are_run() {
     let mut editor = Editor::open(folder.path());
     let names = ["one.md", "two.md", "three.md"];
     for name in names {
-        std::fs::write(folder.path().join(name), wrong()).unwrap();
-        editor.did_open(name, &wrong());
+        let text = wrong().replace("\"id\": \"", &format!("\"id\": \"{name}-"));
+        std::fs::write(folder.path().join(name), &text).unwrap();
+        editor.did_open(name, &text);
     }
     for name in names {
         editor.notify("textDocument/didSave", json!({"textDocument": {"uri": editor.uri(name)}}));
@@ -149,5 +150,46 @@ fn json_of_another_program_has_no_findings() {
     assert_eq!(editor.did_open("package.json", text), json!([]));
     editor.notify("textDocument/didSave", json!({"textDocument": {"uri": editor.uri("package.json")}}));
     assert_eq!(editor.found("package.json", 1), json!([]));
+    assert_eq!(editor.end(), 0);
+}
+
+/// Findings about several lessons together are those of a check of the folder, whichever lesson is open or changes.
+#[test]
+fn findings_about_a_course_are_those_of_a_check_of_the_folder() {
+    let folder = crate::program::folder();
+    let quiz = |id: &str| {
+        format!(
+            "# Q\n\n```quiz\n{{\"id\": \"{id}\", \"questions\": [{{\"kind\": \"open\", \"q\": \"Why?\"}}]}}\n```\n"
+        )
+    };
+    let write = |name: &str, id: &str| std::fs::write(folder.path().join(name), quiz(id)).unwrap();
+    let of_course = || {
+        let done = run_in(folder.path(), &["check", ".", "--no-run", "--format", "json"]);
+        let report: Value = serde_json::from_str(&done.stdout).unwrap();
+        report["findings"].as_array().unwrap().iter().filter(|f| f["code"] == "duplicate-id").count()
+    };
+    let duplicates = |found: &Value| {
+        let place = |f: &Value| f["range"]["start"]["line"].as_u64().unwrap();
+        let all = found.as_array().unwrap().iter().filter(|f| f["code"] == "duplicate-id");
+        all.map(place).collect::<Vec<_>>()
+    };
+    write("1.md", "a");
+    write("2.md", "a");
+    assert_eq!(of_course(), 1);
+    let mut editor = Editor::open(folder.path());
+    assert_eq!(duplicates(&editor.did_open("1.md", &quiz("a"))), [0u64; 0], "the first is right");
+    assert_eq!(duplicates(&editor.did_open("2.md", &quiz("a"))), [3]);
+    // The other lesson gets another id in the editor.
+    let at = quiz("a").find("\"a\"").unwrap();
+    editor.change("1.md", 2, &quiz("a"), at..at + 3, "\"b\"");
+    assert_eq!(duplicates(&editor.found("2.md", 1)), [0u64; 0]);
+    // A file that is not open gets the id of this one, and another program changes it.
+    write("0.md", "b");
+    let changes = json!([{"uri": editor.uri("0.md"), "type": 1}]);
+    editor.notify("workspace/didChangeWatchedFiles", json!({"changes": changes}));
+    editor.found("1.md", 2);
+    assert_eq!(duplicates(&editor.found("1.md", 2)), [3]);
+    write("1.md", "b");
+    assert_eq!(of_course(), 1);
     assert_eq!(editor.end(), 0);
 }

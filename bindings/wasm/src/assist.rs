@@ -48,8 +48,8 @@ impl Assistant {
         document.check(context);
         let lesson = document.read_lesson(context);
         let editor = EditorText::whole(document.file.text());
-        let found = document.findings.iter();
-        object(&found.map(|f| with_fixes(f, &document.file, lesson.as_deref(), &editor)).collect())
+        let found = document.all_findings();
+        object(&found.iter().map(|f| with_fixes(f, &document.file, lesson.as_deref(), &editor)).collect())
     }
 
     /// The completions at an offset.

@@ -17,6 +17,7 @@ use std::path::Path;
 impl Document {
     /// Checks the text, and stores the findings.
     pub fn check(&mut self, context: &Context) {
+        self.of_course.clear();
         self.findings = match self.kind {
             FileKind::Lesson | FileKind::Json => self.check_lesson(context),
             FileKind::Model => {
@@ -33,7 +34,8 @@ impl Document {
         if is_other_json(&lesson) {
             return Vec::new();
         }
-        reported(&check_blocks(&lesson, &mut self.blocks, &context.models))
+        self.of_course = check_course(&[&lesson]);
+        reported(check_blocks(&lesson, &mut self.blocks, &context.models))
     }
 }
 
@@ -43,14 +45,13 @@ fn is_other_json(lesson: &Lesson) -> bool {
     kind == FileKind::Json && lesson.labs.is_empty() && lesson.quizzes.is_empty()
 }
 
-/// The findings of a checked lesson as `labspec check` reports them for this file: also those about all of its questions
-/// together. There are none for JSON of another program.
-pub fn reported(checked: &Checked) -> Vec<Finding> {
+/// The findings of a checked lesson as `labspec check` reports them, without those that depend on the other lessons of its
+/// course. There are none for JSON of another program.
+pub fn reported(checked: Checked) -> Vec<Finding> {
     if is_other_json(&checked.lesson) {
         return Vec::new();
     }
-    let mut all = check_course(&[&checked.lesson]);
-    all.extend(checked.findings.iter().cloned());
+    let mut all = checked.findings;
     finding::sort(&mut all);
     all
 }
@@ -217,7 +218,7 @@ mod tests {
     /// The findings of a lesson without the cache, which [`Document::check`] must find as well.
     fn plainly(file: SourceFile, path: &Path, models: &Models) -> Vec<Finding> {
         let lesson = load_lesson_at(file, path, &Sources::Disk, models.folder());
-        reported(&check::check_lesson(lesson, models, CheckLevel::STATIC))
+        reported(check::check_lesson(lesson, models, CheckLevel::STATIC))
     }
 
     /// Claims that name others: one in a comment, one about a lab of another lesson, and one that uses

@@ -2,7 +2,7 @@
 
 use super::start::StartedLabs;
 use labspec::bind::scene::Models;
-use labspec::finding::Finding;
+use labspec::finding::{self, Finding};
 use labspec::lint::load_lesson_at;
 use labspec::source::{SourceFile, Sources};
 use labspec::spec::{FileKind, Lesson, kind_of};
@@ -39,8 +39,11 @@ pub struct Document {
     pub file: SourceFile,
     /// The parsed lesson, if it is one and was parsed since the last change.
     pub lesson: Option<Arc<Lesson>>,
-    /// The reported findings.
+    /// The findings about this text alone.
     pub findings: Vec<Finding>,
+    /// The findings about this text that depend on all lessons of its course; after [`Document::check`], those of a course
+    /// with this lesson only.
+    pub of_course: Vec<Finding>,
     /// The findings of each block, by the text of the block and its dependencies.
     pub(crate) blocks: BTreeMap<String, Vec<Finding>>,
 }
@@ -55,6 +58,7 @@ impl Document {
             file: SourceFile::new(name, text),
             lesson: None,
             findings: Vec::new(),
+            of_course: Vec::new(),
             blocks: BTreeMap::new(),
         }
     }
@@ -63,6 +67,14 @@ impl Document {
     pub fn set_text(&mut self, text: impl Into<Arc<str>>) {
         self.file = SourceFile::new(self.file.path().clone(), text);
         self.lesson = None;
+    }
+
+    /// All findings, sorted.
+    pub fn all_findings(&self) -> Vec<Finding> {
+        let mut all = self.of_course.clone();
+        all.extend(self.findings.iter().cloned());
+        finding::sort(&mut all);
+        all
     }
 
     /// Forgets what depends on models, because models changed.

@@ -3,11 +3,12 @@
 use super::common::Failure;
 use super::course::CourseResults;
 use super::policy::Policies;
-use super::widgets::PageWidget;
+use super::widgets::{self, PageWidget};
 use labspec::check;
 use labspec::finding::{Finding, Severity};
 use labspec::ledger::{Entry, Evidence, Ledger, State, Subject};
 use labspec::report::Summary;
+use labspec::spec::Lesson;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -49,15 +50,15 @@ fn accept_page_widgets(
     results: &CourseResults,
     policies: &mut Policies,
 ) -> Result<(), Failure> {
-    let mut of_pages: BTreeMap<Arc<str>, Vec<PageWidget>> = BTreeMap::new();
+    let mut of_pages: BTreeMap<Arc<str>, (&Lesson, Vec<PageWidget>)> = BTreeMap::new();
     for c in results.checked.iter().filter(|c| !c.lesson.widgets.is_empty()) {
         let path = c.lesson.file.path();
-        of_pages.insert(path.clone(), policies.policy_for(Path::new(&**path))?.widgets);
+        of_pages.insert(path.clone(), (&c.lesson, policies.policy_for(Path::new(&**path))?.widgets));
     }
-    let has = |path: &Arc<str>, name: &str| {
-        of_pages.get(path).is_some_and(|all| all.iter().any(|w| w.name == name))
-    };
-    ledger.accept_widgets(has);
+    ledger.accept_widgets(|path, span| {
+        let (lesson, declared) = of_pages.get(path)?;
+        widgets::state(lesson, span, declared)
+    });
     Ok(())
 }
 

@@ -3,10 +3,12 @@
 use super::json_schema::{Misfit, check_schema, validate};
 use labspec::finding::{Finding, InFile};
 use labspec::json;
+use labspec::ledger::{Evidence, State};
 use labspec::rules;
 use labspec::source::read_text;
 use labspec::spec::{Lesson, Widget};
 use serde_json::Value;
+use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -84,16 +86,38 @@ pub(super) fn check(lesson: &Lesson, widgets: &[PageWidget], findings: &mut Vec<
 }
 
 fn check_block(lesson: &Lesson, widget: &Widget, path: &str, schema: &Value, findings: &mut Vec<Finding>) {
-    let Some(block) = lesson.scan.blocks.iter().find(|block| block.span == widget.span) else { return };
-    let parsed = json::parse(&block.body.value, &block.body.map);
-    // Malformed JSON is reported as such.
-    let Some(node) = parsed.node.filter(|_| !parsed.broken) else { return };
-    let mut misfits = Vec::new();
-    validate(schema, &node, &mut misfits);
-    for Misfit { span, message, help } in misfits.into_iter().take(MAX_FINDINGS) {
+    for Misfit { span, message, help } in
+        misfits(lesson, widget, schema).into_iter().flatten().take(MAX_FINDINGS)
+    {
         let message = format!("this does not fit the schema of `{}`: {message}", widget.name);
         let finding =
             Finding::new(rules::WIDGET_SCHEMA, span, message).help(format!("{help} (schema: {path})"));
         findings.push(finding.at(&lesson.file));
     }
+}
+
+/// Where the JSON of a block does not fit a schema. `None` if it is malformed, which is reported as such.
+fn misfits(lesson: &Lesson, widget: &Widget, schema: &Value) -> Option<Vec<Misfit>> {
+    let block = lesson.scan.blocks.iter().find(|block| block.span == widget.span)?;
+    let parsed = json::parse(&block.body.value, &block.body.map);
+    let node = parsed.node.filter(|_| !parsed.broken)?;
+    let mut misfits = Vec::new();
+    validate(schema, &node, &mut misfits);
+    Some(misfits)
+}
+
+/// The state of the widget of a lesson at a place, and the word for it. `None` if the settings do not declare it.
+pub(super) fn state(
+    lesson: &Lesson,
+    span: &Range<usize>,
+    widgets: &[PageWidget],
+) -> Option<(State, &'static str)> {
+    let widget = lesson.widgets.iter().find(|widget| widget.span == *span)?;
+    let declared = widgets.iter().find(|declared| declared.name == widget.name)?;
+    let Some((_, schema)) = &declared.schema else { return Some((State::NotClaimed, "not run")) };
+    Some(match misfits(lesson, widget, schema) {
+        Some(misfits) if misfits.is_empty() => (State::True(Evidence::Computed), "valid"),
+        Some(_) => (State::False, "invalid"),
+        None => (State::Unchecked, "unreadable"),
+    })
 }

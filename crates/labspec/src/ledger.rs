@@ -226,7 +226,11 @@ impl Ledger {
     /// The overall outcome. A file without checkable content is not evidence.
     pub fn outcome(&self) -> Outcome {
         let bad = |e: &Entry| matches!(e.state, State::False | State::Unchecked);
-        let good = |e: &Entry| !matches!(e.subject, Subject::File | Subject::Widget | Subject::Option);
+        let good = |e: &Entry| match e.subject {
+            Subject::File | Subject::Option => false,
+            Subject::Widget => matches!(e.state, State::True(_)),
+            _ => true,
+        };
         if self.entries.iter().any(bad) {
             Outcome::Findings
         } else if self.entries.iter().any(|e| e.state == State::Skipped) {
@@ -312,13 +316,17 @@ impl Ledger {
         parts.join(", ")
     }
 
-    /// Marks widgets that `accepted` names as belonging to the page: labspec does not run them, and they are not claimed to
-    /// run.
-    pub fn accept_widgets(&mut self, accepted: impl Fn(&Arc<str>, &str) -> bool) {
-        for entry in self.entries.iter_mut().filter(|e| e.subject == Subject::Widget) {
-            let name = entry.owner.strip_prefix("widget ").unwrap_or_default();
-            if entry.state == State::Skipped && accepted(&entry.path, name) {
-                (entry.state, entry.word) = (State::NotClaimed, "not run");
+    /// Gives widgets of the page, which labspec does not run, the state and the word that `declared` returns for the widget
+    /// at this place. `None` leaves a widget unknown.
+    pub fn accept_widgets(
+        &mut self,
+        declared: impl Fn(&Arc<str>, &Range<usize>) -> Option<(State, &'static str)>,
+    ) {
+        for entry in
+            self.entries.iter_mut().filter(|e| e.subject == Subject::Widget && e.state == State::Skipped)
+        {
+            if let Some((state, word)) = declared(&entry.path, &entry.span) {
+                (entry.state, entry.word) = (state, word);
                 entry.remark.clear();
             }
         }
@@ -352,7 +360,10 @@ fn summary_counts(subject: Subject, c: &Count) -> Vec<[(usize, &'static str); 2]
         Subject::Run => {
             vec![[(c.wrong, "broken"), (c.unchecked, "impossible")], [(c.skipped, "left out"), (0, "")]]
         }
-        Subject::Widget => vec![[(c.not_claimed, "not run"), (c.skipped, "not checked")]],
+        Subject::Widget => vec![
+            [(c.computed, "valid"), (c.wrong + c.unchecked, "invalid")],
+            [(c.not_claimed, "not run"), (c.skipped, "not checked")],
+        ],
         Subject::Model => vec![[(c.computed, "loaded"), (c.wrong + c.unchecked, "refused")]],
         Subject::Lab => vec![
             [(c.simulated, "run"), (c.wrong, "broken")],
@@ -410,6 +421,7 @@ mod tests {
         assert_eq!(outcome(&[file]), Outcome::Nothing);
         assert_eq!(outcome(&[file, (Subject::Widget, State::NotClaimed)]), Outcome::Nothing);
         assert_eq!(outcome(&[file, (Subject::Widget, State::Skipped)]), Outcome::Partial);
+        assert_eq!(outcome(&[file, (Subject::Widget, State::True(Evidence::Computed))]), Outcome::Clean);
         assert_eq!(outcome(&[file, answer(State::NotClaimed)]), Outcome::Clean);
         assert_eq!(outcome(&[file, answer(State::True(Evidence::Simulated))]), Outcome::Clean);
         assert_eq!(outcome(&[file, answer(State::Unchecked)]), Outcome::Findings);

@@ -33,7 +33,8 @@ pub(super) fn code_actions(
     let touches = |f: &&Finding| f.span.start <= span.end && span.start <= f.span.end;
     let content = &document.content;
     let mut all = Vec::new();
-    let here = || content.findings.iter().filter(touches);
+    let findings = content.all_findings();
+    let here = || findings.iter().filter(touches);
     if requested(&CodeActionKind::QUICKFIX) {
         let found = here().filter_map(|f| Some(quick_fix(document, f, fix(&content.file, f)?)));
         all.extend(found);

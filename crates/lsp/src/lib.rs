@@ -18,6 +18,7 @@ mod commands;
 mod complete;
 mod context;
 mod convert;
+mod course;
 mod diagnostic;
 mod document_requests;
 mod documents;

@@ -49,7 +49,8 @@ impl RunningCheck {
             let check = || {
                 let lesson = load_lesson_at(file, &path, &sources, models.folder());
                 let checked = check::check_lesson(lesson, &models, CheckLevel::FULL);
-                (reported(&checked), run_values(&checked))
+                let values = run_values(&checked);
+                (reported(checked), values)
             };
             let outcome = threads::catch_panic(|| interrupt::until(asked.clone(), check)).ok();
             // The results of a cancelled check are discarded.

@@ -2,6 +2,7 @@
 
 use super::context::{ModelContexts, WorkspaceRoot};
 use super::convert;
+use super::course::{self, CourseFiles};
 use super::diagnostic::diagnostic;
 use super::documents::OpenDocument;
 use super::edits::workspace_edit;
@@ -64,6 +65,7 @@ pub(super) struct ServerState<'c> {
     /// The open documents, by URI.
     pub(super) documents: BTreeMap<String, OpenDocument>,
     pub(super) contexts: ModelContexts,
+    course_files: CourseFiles,
     /// The folders that are open in the editor.
     pub(super) folders: Vec<WorkspaceRoot>,
     pub(super) settings: EditorSettings,
@@ -92,6 +94,7 @@ impl<'c> ServerState<'c> {
             phase: Phase::Uninitialized,
             documents: BTreeMap::new(),
             contexts: ModelContexts::default(),
+            course_files: CourseFiles::default(),
             folders: Vec::new(),
             settings: EditorSettings::default(),
             editor: EditorSupport::default(),
@@ -155,6 +158,7 @@ impl<'c> ServerState<'c> {
         let paths = uris.iter().filter_map(|uri| convert::path_of_uri(uri));
         self.folders =
             paths.map(|named| WorkspaceRoot { real: convert::resolve_links(&named), named }).collect();
+        self.course_files.forget();
     }
 
     /// Returns an open document with the models and sources that it uses.
@@ -202,6 +206,7 @@ impl<'c> ServerState<'c> {
     /// Reads cached information about files again.
     pub(super) fn refresh(&mut self) {
         self.contexts.refresh();
+        self.course_files.refresh();
         (self.course.refresh)();
     }
 
@@ -344,8 +349,8 @@ impl<'c> ServerState<'c> {
     pub(super) fn check_documents(&mut self) -> io::Result<()> {
         let stale = self.documents.iter().filter(|(_, document)| document.stale);
         let stale: Vec<String> = stale.map(|(uri, _)| uri.clone()).collect();
-        for uri in stale {
-            let Some(document) = self.documents.get_mut(&uri) else { continue };
+        for uri in &stale {
+            let Some(document) = self.documents.get_mut(uri) else { continue };
             let context = self.contexts.model_context(&document.content.path, self.course.models);
             let checked = catch_unwind(AssertUnwindSafe(|| document.content.check(context)));
             document.stale = false;
@@ -353,9 +358,16 @@ impl<'c> ServerState<'c> {
                 document.content.findings.clear();
             }
             (self.course.policy)(&document.content.path, &mut document.content.findings);
-            self.publish(&uri)?;
         }
-        Ok(())
+        if stale.is_empty() && self.course_files.are_read() {
+            return Ok(());
+        }
+        let changed = {
+            let ServerState { course_files, documents, folders, course, .. } = self;
+            course::update(course_files, documents, folders, course.policy)
+        };
+        let others = changed.into_iter().filter(|uri| !stale.contains(uri));
+        stale.iter().cloned().chain(others).collect::<Vec<_>>().iter().try_for_each(|uri| self.publish(uri))
     }
 
     /// Sends the findings of a document.
@@ -363,7 +375,7 @@ impl<'c> ServerState<'c> {
         let Some(OpenDocument { uri, content, version, .. }) = self.documents.get(uri) else {
             return Ok(());
         };
-        let diagnostics = content.findings.iter().map(|f| diagnostic(f, &content.file, uri)).collect();
+        let diagnostics = content.all_findings().iter().map(|f| diagnostic(f, &content.file, uri)).collect();
         let params = PublishDiagnosticsParams { uri: uri.clone(), diagnostics, version: Some(*version) };
         self.publish_diagnostics(params)
     }

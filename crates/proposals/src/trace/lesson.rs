@@ -44,7 +44,7 @@ pub fn trace<'l>(lesson: &'l Lesson, models: &Models, report_progress: &mut dyn 
     let origin_of = |s: &Stated| match interrupt::requested() {
         _ if claimed.iter().any(|at| at.start < s.span.end && s.span.start < at.end) => Origin::Claimed,
         true => Origin::Unknown,
-        false => rank::origin(s, &numbers, &labs, &bindings, &[]),
+        false => rank::origin(s, &numbers, &labs, &bindings, &rank::Siblings::default()),
     };
     let mut origins: Vec<Origin> = numbers.iter().map(origin_of).collect();
     if !interrupt::requested() {

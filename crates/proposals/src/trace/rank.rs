@@ -110,8 +110,7 @@ const START_WORDS: [&str; 16] = [
 ];
 /// The cost of a setting if another value of the same control is named nearer to the number.
 const NAMED_NEARER: f64 = 0.5;
-/// The reward for a value of the run of another number of the paragraph, or for the measure of another number in another run: "it leaves
-/// at 0.67 m/s instead of 1.00 m/s".
+/// The reward for a value of the run of another number of the paragraph, or for the measure of another number in another run.
 const SIBLING_REWARD: f64 = 0.6;
 /// The cost of a value that equals the printed number exactly.
 const EXACT: f64 = 0.5;
@@ -126,13 +125,25 @@ struct CandidateMatch {
     hit: MeasureMatch,
 }
 
-/// Determines the origin of a number. `siblings` are the origins of other numbers of its paragraph that are more certain.
+/// The origins of other numbers of a paragraph that are more certain.
+#[derive(Default)]
+pub(super) struct Siblings<'a> {
+    all: Vec<&'a MeasureMatch>,
+    /// That of a number with which the sentence contrasts the number: both are the same measure.
+    contrasted: Option<&'a MeasureMatch>,
+}
+
+/// Words between two values of the same measure: "it leaves at 0.67 m/s instead of 1.00 m/s".
+const CONTRASTS: [&str; 6] =
+    ["instead of", "rather than", "compared with", "compared to", "as opposed to", "in place of"];
+
+/// Determines the origin of a number.
 pub(super) fn origin(
     s: &Stated,
     numbers: &[Stated],
     labs: &[TracedLab<'_>],
     bindings: &[Binding],
-    siblings: &[&MeasureMatch],
+    siblings: &Siblings<'_>,
 ) -> Origin {
     let around = NumberContext::new(s, numbers);
     if si(s) == 0.0 || s.bound {
@@ -171,7 +182,7 @@ fn compare_values(
     s: &Stated,
     around: &NumberContext<'_>,
     labs: &[TracedLab<'_>],
-    siblings: &[&MeasureMatch],
+    siblings: &Siblings<'_>,
 ) -> (Vec<(f64, f64)>, Vec<CandidateMatch>) {
     let mut tried: Vec<(f64, f64)> = Vec::new();
     let mut matches: Vec<CandidateMatch> = Vec::new();
@@ -184,7 +195,8 @@ fn compare_values(
         .filter_map(|c| c.constant.as_ref())
         .flat_map(|constant| constant.owner.iter().map(String::as_str))
         .collect();
-    let filter = CandidateFilter { s, around, nearest, object: object(s, labs) };
+    let contrasted = siblings.contrasted.map(|hit| hit.measure.as_str());
+    let filter = CandidateFilter { s, around, nearest, object: object(s, labs), contrasted };
     for (l, lab) in labs.iter().enumerate() {
         let far = distances.get(l).copied().unwrap_or(0.0);
         for (t, (trial, values)) in lab.trials.iter().zip(&lab.values).enumerate() {
@@ -219,8 +231,19 @@ fn compare_values(
 }
 
 /// Whether other numbers of the paragraph have this run, or this measure.
-fn is_beside(siblings: &[&MeasureMatch], run: (usize, usize), measure: &str) -> bool {
-    siblings.iter().any(|sibling| sibling.place == Some(run) || sibling.measure == measure)
+fn is_beside(siblings: &Siblings<'_>, run: (usize, usize), measure: &str) -> bool {
+    siblings.all.iter().any(|sibling| sibling.place == Some(run) || sibling.measure == measure)
+}
+
+/// Whether the words between two numbers contrast them.
+fn are_contrasted(a: &Stated, b: &Stated) -> bool {
+    let (first, second) = if a.at < b.at { (a, b) } else { (b, a) };
+    let between = first.paragraph.get(first.at..second.at).unwrap_or("");
+    let number = |c: char| c.is_ascii_digit() || matches!(c, '.' | ',' | '-' | '−' | ' ');
+    let words = between.trim_start_matches(number);
+    let words =
+        words.strip_prefix(first.unit.as_str()).unwrap_or(words).trim_matches(|c: char| !c.is_alphanumeric());
+    CONTRASTS.contains(&words.to_lowercase().as_str())
 }
 
 /// Determines origins again beside the more certain ones of the same paragraph: numbers of a paragraph are about the same run, or
@@ -242,11 +265,14 @@ pub(super) fn compare_siblings(
         let Some(hit) = hit else { continue };
         let others =
             numbers.iter().zip(&hits).filter(|(n, _)| n.paragraph == s.paragraph && n.span != s.span);
-        let siblings: Vec<&MeasureMatch> = others
-            .filter_map(|(_, other)| other.as_ref())
-            .filter(|other| other.chance < hit.chance)
-            .collect();
-        if !siblings.is_empty() {
+        let mut siblings = Siblings::default();
+        for (n, other) in others.filter_map(|(n, other)| Some((n, other.as_ref()?))) {
+            if other.chance < hit.chance {
+                siblings.all.push(other);
+                siblings.contrasted = siblings.contrasted.or(Some(other).filter(|_| are_contrasted(s, n)));
+            }
+        }
+        if !siblings.all.is_empty() {
             *origin = self::origin(s, numbers, labs, bindings, &siblings);
         }
     }
@@ -260,12 +286,17 @@ struct CandidateFilter<'a> {
     nearest: BTreeSet<&'a str>,
     /// The object that the number describes.
     object: Option<String>,
+    /// The measure of the number with which this one is contrasted.
+    contrasted: Option<&'a str>,
 }
 
 impl CandidateFilter<'_> {
     /// Whether a value of a candidate can be the origin: in a run of a lab at this distance, by its index.
     fn accepts(&self, c: &Candidate, value: f64, (lab, run, far): (&TracedLab<'_>, usize, f64)) -> bool {
-        let CandidateFilter { s, around, nearest, object } = self;
+        let CandidateFilter { s, around, nearest, object, contrasted } = self;
+        if contrasted.is_some_and(|measure| c.text != measure) {
+            return false;
+        }
         if !c.dimension.agrees(&s.dimension) || !value.is_finite() || value == 0.0 {
             return false;
         }

@@ -1,0 +1,104 @@
+//! The findings that depend on all lessons of a course. The lessons below a folder that is open in the editor are one course;
+//! a lesson outside of these folders is a course of its own.
+
+use super::context::{WorkspaceRoot, lessons_below};
+use super::documents::OpenDocument;
+use labspec::finding::Finding;
+use labspec::lint::{ModelFolder, check_course, load_lesson};
+use labspec::spec::Lesson;
+use labspec::threads;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// The lessons of each open folder that are files, by path. They are read when a file may have changed, and parsed when its text
+/// has.
+#[derive(Debug, Default)]
+pub(super) struct CourseFiles {
+    lessons: BTreeMap<String, Arc<Lesson>>,
+    /// The folders whose files were read.
+    read: Vec<PathBuf>,
+}
+
+impl CourseFiles {
+    /// Reads the files again when they are used next.
+    pub(super) fn refresh(&mut self) {
+        self.read.clear();
+    }
+
+    /// Whether files were read since they may have changed.
+    pub(super) fn are_read(&self) -> bool {
+        !self.read.is_empty()
+    }
+
+    /// Forgets all files, because other folders are open.
+    pub(super) fn forget(&mut self) {
+        *self = CourseFiles::default();
+    }
+
+    /// Reads the lessons below a folder.
+    fn read_below(&mut self, folder: &Path, open: &BTreeMap<String, OpenDocument>) {
+        if self.read.iter().any(|read| read == folder) {
+            return;
+        }
+        self.read.push(folder.to_path_buf());
+        let mut before = std::mem::take(&mut self.lessons);
+        for file in lessons_below(folder, open) {
+            let parsed = before.remove(&**file.path()).filter(|lesson| lesson.file.text() == file.text());
+            let path = file.path().to_string();
+            let parse = || threads::catch_panic(|| Arc::new(load_lesson(file, &ModelFolder::unknown()))).ok();
+            if let Some(lesson) = parsed.or_else(parse) {
+                self.lessons.insert(path, lesson);
+            }
+        }
+        before.retain(|path, _| !Path::new(path).starts_with(folder));
+        self.lessons.append(&mut before);
+    }
+
+    /// The findings of the course of a document, by the path of their file.
+    fn findings(
+        &mut self,
+        document: &OpenDocument,
+        open: &BTreeMap<String, OpenDocument>,
+        folders: &[WorkspaceRoot],
+    ) -> Vec<Finding> {
+        let path = &document.content.path;
+        let Some(root) = folders.iter().map(|folder| &folder.real).find(|root| path.starts_with(root)) else {
+            return document.content.lesson.as_deref().map_or(Vec::new(), |lesson| check_course(&[lesson]));
+        };
+        self.read_below(root, open);
+        let files = self.lessons.iter().filter(|(path, _)| Path::new(path).starts_with(root));
+        let mut lessons: BTreeMap<&str, &Lesson> =
+            files.map(|(path, lesson)| (path.as_str(), &**lesson)).collect();
+        for other in open.values().filter(|other| other.content.path.starts_with(root)) {
+            if let Some(lesson) = other.content.lesson.as_deref() {
+                lessons.insert(lesson.file.path(), lesson);
+            }
+        }
+        check_course(&lessons.into_values().collect::<Vec<_>>())
+    }
+}
+
+/// Finds the findings about open documents that depend on their courses. Returns the documents whose findings changed, by URI.
+pub(super) fn update(
+    files: &mut CourseFiles,
+    documents: &mut BTreeMap<String, OpenDocument>,
+    folders: &[WorkspaceRoot],
+    policy: &mut dyn FnMut(&Path, &mut Vec<Finding>),
+) -> Vec<String> {
+    let mut changed = Vec::new();
+    for (uri, document) in &*documents {
+        let path = document.content.file.path();
+        let mut found = files.findings(document, documents, folders);
+        found.retain(|finding| finding.path == *path);
+        policy(&document.content.path, &mut found);
+        if found != document.content.of_course {
+            changed.push((uri.clone(), found));
+        }
+    }
+    let update_one = |(uri, found)| {
+        documents.get_mut(&uri)?.content.of_course = found;
+        Some(uri)
+    };
+    changed.into_iter().filter_map(update_one).collect()
+}
