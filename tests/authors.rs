@@ -127,6 +127,68 @@ fn the_settings_of_a_lesson_are_shown_with_their_origin() {
     assert_eq!(run_in(folder.path(), &["config", "gone.md"]).code, 2);
 }
 
+/// How texts are read: the words and the comma of a language, macros, and keys of the front matter.
+#[test]
+fn settings_state_how_texts_are_read() {
+    let folder = folder();
+    let check = |settings: &str, text: &str, says: &Value| {
+        write(folder.path(), "labspec.toml", settings);
+        let verify = json!({"runs": {"run": {"until": 1}}, "measure": {"t": "first(contact('ball', 'floor'))", "z": "initial(data.qpos[2])"}, "says": [says]});
+        let lab = json!({"xml": BALL, "stopAt": 1, "readouts": [{"label": "z (m)", "expr": "data.qpos[2]"}], "verify": verify});
+        write(
+            folder.path(),
+            "a.md",
+            &format!("---\ntitle: {text}\n---\n\n# A fall\n\n{text}\n\n```lab simlab\n{lab}\n```\n"),
+        );
+        let done = run_in(folder.path(), &["check", "a.md", "--format", "json"]);
+        assert!(done.code < 2, "{}", done.stderr);
+        let report: Value = serde_json::from_str(&done.stdout).unwrap();
+        let findings = report["findings"].as_array().unwrap().clone();
+        findings.iter().map(|f| f["code"].as_str().unwrap().to_string()).collect::<Vec<_>>()
+    };
+    // The ball lands after 0.44 s.
+    let german = "languages = [\"de\"]\n";
+    let english = "languages = [\"en\"]\n";
+    let about = json!(["etwa 400 ms", "900 * t"]);
+    assert_eq!(check(german, "Sie fällt etwa 400 ms.", &about), [""; 0]);
+    assert_eq!(check("", "Sie fällt etwa 400 ms.", &about), [""; 0]);
+    assert_eq!(check(english, "Sie fällt etwa 400 ms.", &about), ["quote-wrong"]);
+    // 1,500 in German is 1.5.
+    let comma = |factor: &str| json!(["1,500 m", factor]);
+    for (settings, expr, wrong) in [
+        (german, "1.5 * z", &[][..]),
+        (german, "1500 * z", &["quote-wrong"]),
+        (english, "1500 * z", &[]),
+        (english, "1.5 * z", &["quote-wrong"]),
+    ] {
+        let found = check(settings, "Sie fällt 1,500 m.", &comma(expr));
+        let found: Vec<&String> = found.iter().filter(|code| code.starts_with("quote-w")).collect();
+        assert_eq!(found, wrong, "{settings} {expr}");
+    }
+    // The number is only in a macro, and only in the front matter.
+    let said = json!(["0.44 s", "t"]);
+    let in_macro = "{% fall 0.44 s %}";
+    assert_eq!(check("", in_macro, &said), [""; 0], "without the setting, it is text");
+    assert_eq!(check("macros = [\"{% %}\"]\n", in_macro, &said), ["quote-not-found"]);
+    let head = |settings: &str| {
+        write(folder.path(), "labspec.toml", settings);
+        let text = std::fs::read_to_string(folder.path().join("a.md")).unwrap();
+        write(
+            folder.path(),
+            "a.md",
+            &text
+                .replacen("title: {% fall 0.44 s %}", "title: \"0.44 s\"", 1)
+                .replace("{% fall 0.44 s %}", "It falls."),
+        );
+        run_in(folder.path(), &["check", "a.md", "--format", "concise"])
+    };
+    assert!(head("").stdout.contains("quote-not-found"));
+    let shown = head("front-matter = [\"title\"]\n");
+    assert_eq!(shown.code, 0, "{}", shown.stdout);
+    let config = run_in(folder.path(), &["config", "a.md"]).stdout;
+    assert!(config.contains("front-matter title"), "{config}");
+}
+
 /// A question about a fall whose explanation states numbers.
 fn explained(explain: &str, says: &Value) -> Vec<Finding> {
     let lab = json!({"xml": BALL, "stopAt": 0.6,
@@ -496,10 +558,7 @@ fn blocks_of_widgets_fit_their_schemas() {
         let done = run_in(folder.path(), &["check", "alone.md"]);
         (done.code, done.stdout.lines().last().unwrap_or_default().to_string())
     };
-    assert_eq!(
-        alone(r#"{"place": "Rome"}"#),
-        (0, "1 file, 1 widget valid: no problems found".into())
-    );
+    assert_eq!(alone(r#"{"place": "Rome"}"#), (0, "1 file, 1 widget valid: no problems found".into()));
     for (block, errors) in [("{}", "1 error"), ("{\"place\": ", "")] {
         let (code, last) = alone(block);
         assert!(code == 1 && last.contains("1 widget invalid") && last.contains(errors), "{last}");

@@ -182,6 +182,7 @@ fn part_of(lesson: &Lesson, unit: &Range<usize>) -> Lesson {
         findings: Vec::new(),
         snapshot: None,
         data: lesson.data.clone(),
+        conventions: lesson.conventions.clone(),
         place: None,
     }
 }

@@ -3,9 +3,9 @@
 use super::start::StartedLabs;
 use labspec::bind::scene::Models;
 use labspec::finding::{self, Finding};
-use labspec::lint::load_lesson_at;
+use labspec::lint::{ModelFolder, load_lesson_at};
 use labspec::source::{SourceFile, Sources};
-use labspec::spec::{FileKind, Lesson, kind_of};
+use labspec::spec::{Conventions, FileKind, Lesson, kind_of};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -28,6 +28,22 @@ impl Context {
     }
 }
 
+/// The text of a document, and how it is read.
+#[derive(Clone, Debug)]
+pub struct DocumentText {
+    file: SourceFile,
+    path: PathBuf,
+    conventions: Conventions,
+}
+
+impl DocumentText {
+    /// The lesson.
+    pub fn load(self, sources: &Sources, models: &ModelFolder) -> Lesson {
+        let lesson = load_lesson_at(self.file, &self.path, sources, models);
+        Lesson { conventions: self.conventions, ..lesson }
+    }
+}
+
 /// A text in an editor: a lesson, a lab or a quiz as JSON, or a model.
 #[derive(Debug)]
 pub struct Document {
@@ -37,6 +53,8 @@ pub struct Document {
     pub kind: FileKind,
     /// The text.
     pub file: SourceFile,
+    /// How the texts of the lesson are read.
+    pub conventions: Conventions,
     /// The parsed lesson, if it is one and was parsed since the last change.
     pub lesson: Option<Arc<Lesson>>,
     /// The findings about this text alone.
@@ -56,6 +74,7 @@ impl Document {
             kind: kind_of(&path),
             path,
             file: SourceFile::new(name, text),
+            conventions: Conventions::default(),
             lesson: None,
             findings: Vec::new(),
             of_course: Vec::new(),
@@ -77,6 +96,22 @@ impl Document {
         all
     }
 
+    /// The text, for a thread that loads the lesson.
+    pub fn text(&self) -> DocumentText {
+        let Document { file, path, conventions, .. } = self;
+        DocumentText { file: file.clone(), path: path.clone(), conventions: conventions.clone() }
+    }
+
+    /// Sets how the texts are read. Returns whether that changes.
+    pub fn set_conventions(&mut self, conventions: Conventions) -> bool {
+        let changes = self.conventions != conventions;
+        if changes {
+            self.conventions = conventions;
+            self.forget_models();
+        }
+        changes
+    }
+
     /// Forgets what depends on models, because models changed.
     pub fn forget_models(&mut self) {
         self.blocks.clear();
@@ -90,7 +125,7 @@ impl Document {
         }
         let read = || {
             let models = context.models.folder();
-            Arc::new(load_lesson_at(self.file.clone(), &self.path, &context.sources, models))
+            Arc::new(self.text().load(&context.sources, models))
         };
         let lesson = self.lesson.clone().unwrap_or_else(read);
         self.lesson = Some(lesson.clone());

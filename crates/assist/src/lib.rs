@@ -44,7 +44,7 @@ mod hostile_tests;
 pub use answer::{CompletionAnswer, EditAnswer, EditorText, FindingAnswer, FixAnswer, HoverAnswer};
 pub use check::{check_claims_of, reported};
 pub use complete::completions;
-pub use document::{Context, Document};
+pub use document::{Context, Document, DocumentText};
 pub use folding::{folded_lines, folds};
 pub use formatting::formatting;
 pub use hover::hover;

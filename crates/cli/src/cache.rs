@@ -86,7 +86,9 @@ impl Cache {
         };
         let texts = [file.path().as_bytes(), file.text().as_bytes(), snapshot.as_bytes()];
         let [path, text, snapshot] = texts;
-        let inputs = [self.program.as_bytes(), &flags, path, text, &[stored], snapshot];
+        let conventions = format!("{:?}", lesson.conventions);
+        let inputs =
+            [self.program.as_bytes(), &flags, path, text, &[stored], snapshot, conventions.as_bytes()];
         let others = lesson.others.iter().flat_map(|other| {
             let why = other.lab.as_ref().err().map_or("", String::as_str);
             [other.path.as_bytes(), other.text.as_bytes(), why.as_bytes()]

@@ -14,7 +14,7 @@ use labspec::lint::{self, ModelFolder, load_lesson_at, load_lesson_file};
 use labspec::report::printable_path;
 use labspec::rules;
 use labspec::source::{SourceFile, Sources};
-use labspec::spec::{FileKind, Lesson, kind_of};
+use labspec::spec::{Conventions, FileKind, Lesson, kind_of};
 use labspec::threads;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -109,6 +109,7 @@ pub(super) fn check_file(
     request: &CheckRequest<'_>,
     cache: &Cache,
     task: &FileTask,
+    conventions: &Conventions,
     file: &ListedFile,
     models: &[Models],
 ) -> FileOutcome {
@@ -124,7 +125,7 @@ pub(super) fn check_file(
                 FileOutcome::Model { loads: model.is_some(), findings, sources }
             }
             FileTask::CheckLesson(number) => match models.get(*number) {
-                Some(models) => check_lesson(request, cache, path, *named, models),
+                Some(models) => check_lesson(request, cache, (path, *named), conventions, models),
                 None => FileOutcome::OtherJson,
             },
         }
@@ -136,12 +137,12 @@ pub(super) fn check_file(
 fn check_lesson(
     request: &CheckRequest<'_>,
     cache: &Cache,
-    path: &Path,
-    named: bool,
+    (path, named): (&Path, bool),
+    conventions: &Conventions,
     models: &Models,
 ) -> FileOutcome {
     let lesson = match read_lesson(request, path, models) {
-        Ok(lesson) => lesson,
+        Ok(lesson) => Lesson { conventions: conventions.clone(), ..lesson },
         Err(why) => return FileOutcome::Refused(why),
     };
     if !named && is_other_json(&lesson) {

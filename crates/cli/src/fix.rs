@@ -52,11 +52,12 @@ pub(super) fn fix(request: &CheckRequest<'_>, mode: FixMode) -> Result<AppliedFi
             continue;
         }
         let folder = model_folder_within(request.models, &path, request.paths)?;
-        let Ok(lesson) = load_lesson_file(&path, &folder) else { continue };
+        let Ok(mut lesson) = load_lesson_file(&path, &folder) else { continue };
         if !named && is_other_json(&lesson) {
             continue;
         }
         let policy = policies.policy_for(&path)?;
+        lesson.conventions = policy.conventions.clone();
         let models = Models::new(folder);
         let look = |lesson: Lesson| {
             let found = check::run_checks(&lesson, &models, request.level);

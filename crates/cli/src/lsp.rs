@@ -6,6 +6,7 @@ use super::stdio::print_error;
 use super::target::model_folder;
 use labspec::finding::Finding;
 use labspec::lint::ModelFolder;
+use labspec::spec::Conventions;
 use labspec_lsp::{CourseConfig, serve};
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -53,8 +54,17 @@ pub(super) fn lsp(a: &LspArguments) -> Result<CommandOutcome, Failure> {
             Err(why) => say(why),
         }
     };
+    // A problem of the settings is reported with the findings.
+    let conventions = |path: &Path| {
+        if let Some(policy) = policies.borrow().get(path) {
+            return policy.conventions.clone();
+        }
+        let near = Policies::new(&a.policy).and_then(|mut all| all.policy_for(path));
+        near.map_or(Conventions::default(), |policy| policy.conventions)
+    };
     let refresh = || policies.borrow_mut().clear();
-    let course = CourseConfig { models: &models, policy: &mut policy, refresh: &refresh };
+    let course =
+        CourseConfig { models: &models, policy: &mut policy, conventions: &conventions, refresh: &refresh };
     let input = BufReader::new(std::io::stdin());
     match serve(course, input, &mut std::io::stdout().lock()) {
         Ok(true) => Ok(CommandOutcome::Clean),

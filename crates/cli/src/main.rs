@@ -11,6 +11,7 @@ mod commands;
 mod common;
 mod completions;
 mod config;
+mod conventions;
 mod course;
 mod course_ledger;
 mod developer;

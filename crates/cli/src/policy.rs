@@ -1,6 +1,7 @@
 //! Which findings are reported, and with which severity, according to the command line and the nearest `labspec.toml`.
 
 use super::common::Failure;
+use super::conventions;
 use super::routes::Routes;
 use super::widgets::{self, PageWidget};
 use ignore::gitignore::{Gitignore, GitignoreBuilder};
@@ -8,6 +9,7 @@ use labspec::finding::{Finding, Severity};
 use labspec::report::{printable, printable_path};
 use labspec::rules;
 use labspec::source::read_text;
+use labspec::spec::Conventions;
 use labspec_finding::{Layer, nearest};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -108,6 +110,8 @@ pub(super) struct Policy {
     pub(super) widgets: Vec<PageWidget>,
     /// The files of the pages of a single-page site.
     pub(super) routes: Routes,
+    /// How the texts of the lesson are read.
+    pub(super) conventions: Conventions,
 }
 
 impl Policy {
@@ -138,6 +142,7 @@ struct PolicyFile {
     deny: Vec<String>,
     widgets: Vec<PageWidget>,
     routes: Routes,
+    conventions: Conventions,
     paths: Vec<PathSettings>,
 }
 
@@ -209,6 +214,7 @@ impl Policies {
             deny: RuleSet::parse(deny)?,
             widgets,
             routes: near.routes.clone(),
+            conventions: near.conventions.clone(),
         })
     }
 
@@ -253,6 +259,9 @@ impl Policies {
         add("deny", &self.options.deny, command);
         add("widgets", &near.widgets.iter().map(PageWidget::line).collect::<Vec<_>>(), &file);
         add("routes", &near.routes.lines().collect::<Vec<_>>(), &file);
+        conventions::lines(&near.conventions)
+            .into_iter()
+            .for_each(|(name, value)| add(name, &[value], &file));
         Ok((settings.as_ref().map(|settings| settings.path.clone()), all))
     }
 
@@ -273,6 +282,14 @@ impl Policies {
     }
 }
 
+/// How the texts of a lesson are read, according to the nearest settings.
+///
+/// # Errors
+/// The settings cannot be read.
+pub(super) fn conventions_of(path: &Path) -> Result<Conventions, Failure> {
+    Ok(Policies::new(&PolicyOptions::default())?.policy_for(path)?.conventions)
+}
+
 impl Globs {
     fn new(folder: &Path, patterns: &[String]) -> Result<Globs, String> {
         let mut all = GitignoreBuilder::new(folder);
@@ -288,7 +305,8 @@ impl Globs {
 }
 
 /// The keys of settings, and of settings for some paths.
-const KEYS: [&str; 6] = ["select", "ignore", "deny", "widgets", "routes", "paths"];
+const KEYS: [&str; 9] =
+    ["select", "ignore", "deny", "widgets", "routes", "languages", "macros", "front-matter", "paths"];
 const OF_PATHS: [&str; 3] = ["match", "ignore", "deny"];
 
 fn read(path: &Path) -> Result<PolicyFile, Failure> {
@@ -308,6 +326,7 @@ fn read(path: &Path) -> Result<PolicyFile, Failure> {
     let folder = path.canonicalize().ok().and_then(|p| p.parent().map(Path::to_path_buf)).unwrap_or_default();
     let widgets = widgets::read(&folder, table.get("widgets")).map_err(cannot)?;
     let routes = Routes::read(&folder, table.get("routes")).map_err(cannot)?;
+    let conventions = conventions::read(|name| string_list(&table, name, false)).map_err(cannot)?;
     let mut paths = Vec::new();
     for entry in of_paths(&table).map_err(cannot)? {
         reject_unknown_keys(entry, &OF_PATHS).map_err(cannot)?;
@@ -319,7 +338,7 @@ fn read(path: &Path) -> Result<PolicyFile, Failure> {
         let list = |name: &str| string_list(entry, name, true).map_err(cannot);
         paths.push(PathSettings { patterns, globs, ignore: list("ignore")?, deny: list("deny")? });
     }
-    Ok(PolicyFile { path: path.to_path_buf(), select, ignore, deny, widgets, routes, paths })
+    Ok(PolicyFile { path: path.to_path_buf(), select, ignore, deny, widgets, routes, conventions, paths })
 }
 
 /// The tables of `[[paths]]`; empty if there are none.
@@ -409,6 +428,8 @@ mod tests {
         };
         assert_eq!(keys(&schema), sorted(&KEYS));
         assert_eq!(keys(&schema["properties"]["paths"]["items"]), sorted(&OF_PATHS));
+        let codes: Vec<&str> = labspec::language::LANGUAGES.iter().map(|language| language.code).collect();
+        assert_eq!(schema["properties"]["languages"]["items"]["enum"], serde_json::json!(codes));
         let words = schema["$defs"]["rules"]["description"].as_str().unwrap();
         for word in Layer::ALL.map(Layer::as_str).iter().chain(SEVERITIES.map(|(word, _)| word).iter()) {
             assert!(words.contains(word), "{word}");
@@ -431,5 +452,9 @@ mod tests {
         assert!(error("paths = 1").contains("[[paths]]"));
         assert!(error("paths = [1]").contains("[[paths]]"));
         assert!(error("widgets = \"playground\"").contains("a list of texts"));
+        assert!(error("languages = [\"dee\"]").contains("did you mean `de`"));
+        assert!(error("languages = [\"xxxx\"]").contains("use one of en, de"));
+        assert!(error("macros = [\"{%\"]").contains("a closing delimiter"));
+        assert!(error("front_matter = []").contains("did you mean `front-matter`"));
     }
 }

@@ -3,6 +3,7 @@
 use super::common::{CommandOutcome, Failure, ModelOptions, interrupted};
 use super::output::write_file;
 use super::output_kind::OutputKind;
+use super::policy::conventions_of;
 use super::report_json::print_report;
 use super::stdio::{Progress, print};
 use super::target::model_folder;
@@ -43,7 +44,8 @@ enum ScaffoldFormat {
 
 pub(super) fn scaffold(a: &ScaffoldArguments) -> Result<CommandOutcome, Failure> {
     let folder = model_folder(&a.models, &a.lesson)?;
-    let lesson = load_lesson_file(&a.lesson, &folder)?;
+    let mut lesson = load_lesson_file(&a.lesson, &folder)?;
+    lesson.conventions = conventions_of(&a.lesson)?;
     let models = Models::new(folder.clone());
     let progress = Progress::new(a.format == ScaffoldFormat::Human);
     let all = look(&lesson, &models, &mut |text| progress.report(text));

@@ -110,7 +110,7 @@ fn check_files(
         if request.progress {
             show_progress(&format!("checking {} of {}: {}", i + 1, jobs.len(), printable_path(&job.file.0)));
         }
-        let mut outcome = check_file(request, cache, &job.task, &job.file, models);
+        let mut outcome = check_file(request, cache, &job.task, &job.policy.conventions, &job.file, models);
         suppress_findings(request, &job.policy, &mut outcome);
         if let Some(color) = request.findings_in_color {
             printer.add(i, findings_text(&outcome, color));

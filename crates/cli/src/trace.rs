@@ -1,6 +1,7 @@
 //! `labspec trace`.
 
 use super::common::{CommandOutcome, Failure, ModelOptions, interrupted};
+use super::policy::conventions_of;
 use super::report_json::print_report;
 use super::stdio::{Progress, print};
 use super::target::model_folder;
@@ -37,7 +38,8 @@ enum TraceFormat {
 
 pub(super) fn trace(a: &TraceArguments) -> Result<CommandOutcome, Failure> {
     let folder = model_folder(&a.models, &a.lesson)?;
-    let lesson = load_lesson_file(&a.lesson, &folder)?;
+    let mut lesson = load_lesson_file(&a.lesson, &folder)?;
+    lesson.conventions = conventions_of(&a.lesson)?;
     let models = Models::new(folder);
     let progress = Progress::new(a.format == TraceFormat::Human);
     let found = trace::trace(&lesson, &models, &mut |text| progress.report(text));

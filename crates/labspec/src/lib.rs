@@ -24,6 +24,7 @@ pub mod finding;
 pub mod format;
 pub mod interrupt;
 pub mod json;
+pub mod language;
 pub mod ledger;
 pub mod lint;
 pub mod markdown;

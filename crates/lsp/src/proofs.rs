@@ -2,16 +2,15 @@
 
 use labspec::bind::scene::Models;
 use labspec::interrupt;
-use labspec::lint::{load_lesson_at, reload_lesson};
-use labspec::source::{SourceFile, Sources};
+use labspec::lint::reload_lesson;
+use labspec::source::Sources;
 use labspec::spec::Lesson;
 use labspec::threads;
 use labspec::verify::{QuoteState, Stated};
 use labspec_assist::fixes::{comment_place, line_end};
-use labspec_assist::{Edit, check_claims_of};
+use labspec_assist::{DocumentText, Edit, check_claims_of};
 use labspec_proposals::trace::{Origin, ProposedVerify, Traces, comments_of, format_verify, trace};
 use std::ops::Range;
-use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -40,8 +39,7 @@ pub(super) struct ProofRequest {
     pub(super) job: u64,
     pub(super) uri: String,
     pub(super) version: i32,
-    pub(super) file: SourceFile,
-    pub(super) path: PathBuf,
+    pub(super) text: DocumentText,
     pub(super) numbers: Vec<Range<usize>>,
 }
 
@@ -55,9 +53,9 @@ impl RunningProof {
         let stop = Arc::new(AtomicBool::new(false));
         let (number, uri, asked) = (request.job, request.uri.clone(), stop.clone());
         let work = move || {
-            let ProofRequest { job, uri, version, file, path, numbers } = request;
+            let ProofRequest { job, uri, version, text, numbers } = request;
             let search = || {
-                let lesson = load_lesson_at(file, &path, &sources, models.folder());
+                let lesson = text.load(&sources, models.folder());
                 prove(&lesson, &models, &numbers)
             };
             let found = threads::catch_panic(|| interrupt::until(asked.clone(), search));

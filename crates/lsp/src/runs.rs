@@ -5,11 +5,9 @@ use labspec::bind::scene::Models;
 use labspec::check::{self, CheckLevel};
 use labspec::finding::Finding;
 use labspec::interrupt;
-use labspec::lint::load_lesson_at;
-use labspec::source::{SourceFile, Sources};
+use labspec::source::Sources;
 use labspec::threads;
-use labspec_assist::{RunValues, reported, run_values};
-use std::path::PathBuf;
+use labspec_assist::{DocumentText, RunValues, reported, run_values};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -39,7 +37,7 @@ impl RunningCheck {
         number: u64,
         uri: &str,
         version: i32,
-        (file, path): (SourceFile, PathBuf),
+        text: DocumentText,
         (models, sources): (Arc<Models>, Sources),
         done: impl FnOnce(FinishedJob) + Send + 'static,
     ) -> Option<RunningCheck> {
@@ -47,7 +45,7 @@ impl RunningCheck {
         let (asked, document) = (stop.clone(), uri.clone());
         let work = move || {
             let check = || {
-                let lesson = load_lesson_at(file, &path, &sources, models.folder());
+                let lesson = text.load(&sources, models.folder());
                 let checked = check::check_lesson(lesson, &models, CheckLevel::FULL);
                 let values = run_values(&checked);
                 (reported(checked), values)

@@ -89,6 +89,7 @@ fn run(state: &mut ServerState<'_>, events: &Receiver<ServerEvent>) -> io::Resul
 mod tests {
     use super::*;
     use labspec::lint::ModelFolder;
+    use labspec::spec::Conventions;
     use serde_json::{Value, json};
 
     /// The responses of the server to requests, in order, and whether the session ended according to the protocol.
@@ -104,7 +105,12 @@ mod tests {
         }
         wire::write(&mut input, &json!({"method": "exit"})).unwrap();
         let (models, mut policy) = (|_: &_| ModelFolder::unknown(), |_: &_, _: &mut _| {});
-        let course = CourseConfig { models: &models, policy: &mut policy, refresh: &|| {} };
+        let course = CourseConfig {
+            models: &models,
+            policy: &mut policy,
+            conventions: &|_| Conventions::default(),
+            refresh: &|| {},
+        };
         let mut output = Vec::new();
         let ended = serve(course, io::Cursor::new(input), &mut output).unwrap();
         let bodies = String::from_utf8(output).unwrap();

@@ -13,7 +13,7 @@ use super::wire::{self, Incoming};
 use labspec::finding::Finding;
 use labspec::lint::{ModelFolder, links_to};
 use labspec::source::MAX_FILE;
-use labspec::spec::{FileKind, Lesson, kind_of};
+use labspec::spec::{Conventions, FileKind, Lesson, kind_of};
 use labspec_assist::{Context, RunValues};
 use lsp_types::notification::{LogMessage, Notification, PublishDiagnostics, ShowMessage};
 use lsp_types::request::{ApplyWorkspaceEdit, CodeLensRefresh, Request};
@@ -36,6 +36,8 @@ pub struct CourseConfig<'c> {
     pub models: &'c dyn Fn(&Path) -> ModelFolder,
     /// Removes the findings of a file that are not reported.
     pub policy: &'c mut dyn FnMut(&Path, &mut Vec<Finding>),
+    /// Returns how the texts of a lesson are read.
+    pub conventions: &'c dyn Fn(&Path) -> Conventions,
     /// Called when files may have changed, to read cached settings again.
     pub refresh: &'c dyn Fn(),
 }
@@ -245,7 +247,7 @@ impl<'c> ServerState<'c> {
         let Some(document) = self.documents.get(uri) else { return };
         let context = self.contexts.model_context(&document.content.path, self.course.models);
         let context = (context.models.clone(), context.sources.clone());
-        let text = (document.content.file.clone(), document.content.path.clone());
+        let text = document.content.text();
         let sender = self.sender.clone();
         // The channel is closed if the server has ended.
         let done = move |finished| drop(sender.send(ServerEvent::Finished(finished)));
@@ -288,8 +290,7 @@ impl<'c> ServerState<'c> {
             job: self.jobs,
             uri: uri.to_string(),
             version: document.version,
-            file: document.content.file.clone(),
-            path: document.content.path.clone(),
+            text: document.content.text(),
             numbers,
         };
         let sender = self.sender.clone();
@@ -347,6 +348,12 @@ impl<'c> ServerState<'c> {
 
     /// Checks all changed documents.
     pub(super) fn check_documents(&mut self) -> io::Result<()> {
+        if !self.course_files.are_read() {
+            for document in self.documents.values_mut() {
+                let conventions = (self.course.conventions)(&document.content.path);
+                document.stale |= document.content.set_conventions(conventions);
+            }
+        }
         let stale = self.documents.iter().filter(|(_, document)| document.stale);
         let stale: Vec<String> = stale.map(|(uri, _)| uri.clone()).collect();
         for uri in &stale {

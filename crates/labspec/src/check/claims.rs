@@ -115,7 +115,7 @@ pub(super) fn unclaimed(question: &Question) -> Option<Answer> {
 
 /// Lints the texts of every `verify` object without executing runs.
 pub(super) fn bind(lesson: &Lesson, ready: &[PreparedLab<'_>], models: &Models, findings: &mut Vec<Finding>) {
-    let stage = RunCache::new(models);
+    let stage = RunCache::new(models, lesson.conventions.languages);
     for (_, owner) in owners(lesson) {
         if let Some((verify, lab, _)) = owner.claim(lesson)
             && let Some(resolved) = resolve_labs(lesson, ready, verify, lab, &stage, findings)
@@ -144,8 +144,14 @@ pub(super) fn check_claims<'l>(
     let candidates = partners::observe(lesson, ready);
     let ready = &*ready;
     let partners = Partners::new(lesson, ready, models, candidates);
-    let mut checker =
-        ClaimChecker { lesson, ready, rendered, stage: RunCache::new(models), partners, list: Vec::new() };
+    let mut checker = ClaimChecker {
+        lesson,
+        ready,
+        rendered,
+        stage: RunCache::new(models, lesson.conventions.languages),
+        partners,
+        list: Vec::new(),
+    };
     for (name, owner) in owners(lesson) {
         match owner {
             Owner::Lab(lab) => checker.judge_lab(name, lab, findings),

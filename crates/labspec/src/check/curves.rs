@@ -22,7 +22,7 @@ pub struct VerifyCurves {
 /// Repeats the runs of every claim and records the traces of its lab.
 pub fn curves(lesson: &Lesson, models: &Models) -> Vec<VerifyCurves> {
     let ready = super::of_claims(lesson, models);
-    let stage = RunCache::new(models);
+    let stage = RunCache::new(models, lesson.conventions.languages);
     let owners = claims::owners(lesson).into_iter();
     let drawn = owners.filter_map(|(_, owner)| {
         let (verify, lab, _) = owner.claim(lesson)?;

@@ -59,7 +59,7 @@ pub fn hear(
     findings: &mut Vec<Finding>,
 ) -> CrossCheck {
     let ready = super::of_claims(lesson, models);
-    let stage = RunCache::new(models);
+    let stage = RunCache::new(models, lesson.conventions.languages);
     let rendered = RenderedText::of_lesson(lesson);
     let mut cross_check = CrossCheck::default();
     for (name, owner) in claims::owners(lesson) {

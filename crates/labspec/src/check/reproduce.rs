@@ -89,7 +89,7 @@ pub fn basis(lesson: &Lesson, models: &Models, hash: Hash) -> Basis {
         LabBasis { lab: address.to_string(), block: block(&lab.span), model: one.map(compiled), settings }
     });
     let labs = labs.collect();
-    let stage = RunCache::new(models);
+    let stage = RunCache::new(models, lesson.conventions.languages);
     let claims = claims::owners(lesson).into_iter().filter_map(|(name, owner)| {
         let (verify, written, _) = owner.claim(lesson)?;
         let span = match &owner {

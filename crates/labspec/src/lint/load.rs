@@ -40,10 +40,11 @@ pub fn load_lesson_at(file: SourceFile, path: &Path, sources: &Sources, models: 
 /// Loads another text of a lesson with the same related files.
 pub fn reload_lesson(lesson: &Lesson, text: &str, models: &ModelFolder) -> Lesson {
     let file = SourceFile::new(lesson.file.path().clone(), text);
-    match &lesson.place {
+    let loaded = match &lesson.place {
         Some((path, sources)) => load_lesson_at(file, path, sources, models),
         None => load_lesson(file, models),
-    }
+    };
+    Lesson { conventions: lesson.conventions.clone(), ..loaded }
 }
 
 /// Keeps the first findings of a file that has too many.

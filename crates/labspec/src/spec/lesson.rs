@@ -2,6 +2,7 @@
 
 use super::address::LabAddress;
 use super::comment::{Definition, Remark};
+use super::conventions::Conventions;
 use super::lab::{Lab, Verify, VerifyLab};
 use super::problem::Problem;
 use super::quiz::Quiz;
@@ -44,6 +45,8 @@ pub struct Lesson {
     pub snapshot: Option<Result<SourceFile, String>>,
     /// The files with values that its claims refer to.
     pub data: Vec<DataFile>,
+    /// How its texts are read. Whoever reads the settings of the course sets it.
+    pub conventions: Conventions,
     /// The path of the file, and the sources of its related files; `None` until these files were searched for.
     pub place: Option<(PathBuf, Sources)>,
 }

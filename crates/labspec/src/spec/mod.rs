@@ -11,6 +11,7 @@ mod answer_key;
 mod claim;
 mod comment;
 mod control;
+mod conventions;
 mod fields;
 pub mod format;
 mod integrators;
@@ -38,6 +39,7 @@ pub use claim::{
 pub(crate) use comment::claims_in_comments;
 pub use comment::{Definition, Remark};
 pub use control::{Action, Choice, Control, ControlKind};
+pub use conventions::Conventions;
 pub use integrators::{ENERGY_DRIFT, INTEGRATOR};
 pub use kind::{FileKind, kind_of};
 pub use lab::{

@@ -1,6 +1,7 @@
 //! Reads a [`Lesson`] from its text: every fence and every labspec comment of a Markdown file, or a standalone JSON file.
 
 use super::address::LabAddress;
+use super::conventions::Conventions;
 use super::kind::{FileKind, Nature, kind_of, nature};
 use super::lab::Lab;
 use super::lesson::{LabEntry, Lesson, Widget};
@@ -85,6 +86,7 @@ fn byte_order_mark(text: &str) -> usize {
 /// Reads a lesson. If `at` is given, all ranges in its JSON are `at`.
 fn read_at(file: SourceFile, at: Option<Range<usize>>, place: Option<(PathBuf, Sources)>) -> Lesson {
     let mut lesson = Lesson {
+        conventions: Conventions::default(),
         file,
         labs: Vec::new(),
         quizzes: Vec::new(),

@@ -8,6 +8,7 @@ use super::quote;
 use super::quote_checker::{Quote, QuoteChecker, QuotedValue, check_number, check_words};
 use super::units;
 use crate::finding::Finding;
+use crate::language::Languages;
 use crate::rules;
 use crate::source::{SourceMap, Text};
 use crate::spec::{Column, Stands};
@@ -57,7 +58,7 @@ pub(super) fn check_column(
         Err(reason) => return vec![Quote::unclear(&claim.column, &reason)],
     };
     let swept = units::of_claim(checker.bound, &checker.outcomes.nominal, &part(list, "[0]"));
-    let rows = SweepRows { list, values, swept, key_head };
+    let rows = SweepRows { list, values, swept, key_head, languages: checker.bound.stage().languages() };
     let mut all = Vec::new();
     for [key, text] in cells {
         all.push(match rows.member(&key) {
@@ -94,6 +95,7 @@ struct SweepRows<'c> {
     swept: Option<Dimension>,
     /// The unit in the heading of the column that distinguishes the rows.
     key_head: Option<quote::Unit>,
+    languages: Languages,
 }
 
 impl SweepRows<'_> {
@@ -102,7 +104,7 @@ impl SweepRows<'_> {
     /// # Errors
     /// No value of the sweep equals the number in the cell.
     fn member(&self, key: &Text) -> Result<usize, Box<Finding>> {
-        let read = quote::read_quote(&key.value).ok();
+        let read = quote::read_quote_in(&key.value, self.languages).ok();
         let unit = read.as_ref().and_then(|read| read.unit().cloned()).or_else(|| self.key_head.clone());
         // Cells in millimetres are converted to the metres of the values. A cell of another dimension matches no value.
         let held =
@@ -146,7 +148,7 @@ fn check_cell(
             let expr = part(expr, member);
             let places = vec![quote::QuotePlace { at: text.span(), unit: unit.clone() }];
             let claim = quote::QuoteClaim { quote: text, part: text.as_str(), expr: &expr };
-            let part = quote::whole(text.as_str());
+            let part = quote::whole(text.as_str(), checker.bound.stage().languages());
             match QuotedValue::measure(checker, &expr, findings) {
                 Ok(given) => check_number(checker, &claim, &part, given, places, findings),
                 Err(reason) => Quote::unclear(text, &reason),
@@ -218,7 +220,7 @@ fn condition_of_word<'w>(text: &Text, words: &'w [(Text, Text)]) -> Result<&'w T
                 .help("claim its cells one by one, with `row`"),
         ));
     }
-    if !quote::parts(text.as_str(), 0).is_empty() {
+    if !quote::parts(text.as_str(), 0, Languages::ALL).is_empty() {
         let message = format!("\"{}\" contains a number that no condition checks", text.value);
         return Err(Box::new(
             Finding::error(rules::QUOTE_UNCLEAR, text.span(), message)

@@ -60,7 +60,7 @@ fn contradiction(
 ) -> Option<String> {
     let required = required_range(&parse_expression(&condition.value).tree)?;
     let closed = required.low.is_finite() && required.high.is_finite();
-    let stated = match option_text(&option.value) {
+    let stated = match option_text(&option.value, bound.stage().languages()) {
         Some(claimed) => claimed,
         None if closed && required.ratio => return contradicted_ratio(option, &required),
         None => return None,

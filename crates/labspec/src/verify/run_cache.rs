@@ -5,6 +5,7 @@ use crate::bind::Programs;
 use crate::bind::scene::Models;
 use crate::finding::Finding;
 use crate::json::{Number, Scalar, encode, nearest, read::named};
+use crate::language::Languages;
 use crate::rules;
 use crate::run::ProgramsRef;
 use crate::source::Text;
@@ -68,18 +69,25 @@ pub struct RunCache<'a> {
     left: Cell<u64>,
     /// Whether a run since the last query changed a parameter without the parameters coupled to it.
     has_uncoupled_change: Cell<bool>,
+    languages: Languages,
 }
 
 impl<'a> RunCache<'a> {
-    /// An empty cache. `models` resolves the models that labs name.
-    pub fn new(models: &'a Models) -> RunCache<'a> {
+    /// An empty cache. `models` resolves the models that labs name; `languages` are those of the lesson.
+    pub fn new(models: &'a Models, languages: Languages) -> RunCache<'a> {
         RunCache {
             models,
             changed: RefCell::default(),
             runs: RefCell::default(),
             left: Cell::new(WORK),
             has_uncoupled_change: Cell::new(false),
+            languages,
         }
+    }
+
+    /// The languages of the lesson.
+    pub(super) fn languages(&self) -> Languages {
+        self.languages
     }
 
     /// The text of the model of a lab, with its modifications.

@@ -47,9 +47,10 @@ fn check_line(
     let numbers = given.iter().filter(|(_, given)| !given.is_condition()).count();
     // With one expression, it belongs to the number that the quote states. With words and numbers, every number must be
     // checked.
+    let languages = checker.bound.stage().languages();
     let parts = match exprs.as_slice() {
-        [_] if numbers == 1 => vec![quote::whole(quoted.quote.as_str())],
-        _ => quote::parts(quoted.quote.as_str(), numbers),
+        [_] if numbers == 1 => vec![quote::whole(quoted.quote.as_str(), languages)],
+        _ => quote::parts(quoted.quote.as_str(), numbers, languages),
     };
     if parts.len() != numbers {
         let [printed, given] =
@@ -75,7 +76,7 @@ fn check_line(
                 check_words(checker, &claim(""), &given, &at, findings)
             }
             false => {
-                let part = parts.next().unwrap_or_else(|| quote::whole(""));
+                let part = parts.next().unwrap_or_else(|| quote::whole("", languages));
                 check_number(checker, &claim(&part.text), &part, given, at.clone(), findings)
             }
         });

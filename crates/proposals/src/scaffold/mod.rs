@@ -62,7 +62,7 @@ pub struct Scaffold {
 /// of the current activity.
 pub fn scaffold(lesson: &Lesson, models: &Models, report_progress: &mut dyn FnMut(&str)) -> Vec<Scaffold> {
     let found = trace(lesson, models, report_progress);
-    let stage = RunCache::new(models);
+    let stage = RunCache::new(models, lesson.conventions.languages);
     let mut all = Vec::new();
     let blocks = trace::blocks(&found);
     for (address, lab) in lesson.addressed() {

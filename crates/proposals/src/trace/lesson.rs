@@ -33,7 +33,7 @@ pub struct Traces<'l> {
 /// of the current activity.
 pub fn trace<'l>(lesson: &'l Lesson, models: &Models, report_progress: &mut dyn FnMut(&str)) -> Traces<'l> {
     let numbers = stated(lesson);
-    let stage = RunCache::new(models);
+    let stage = RunCache::new(models, lesson.conventions.languages);
     let mut labs = Vec::new();
     for (address, lab) in lesson.addressed() {
         report_progress(&format!("trying lab {address}"));

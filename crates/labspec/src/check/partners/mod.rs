@@ -138,7 +138,7 @@ impl<'a> Partners<'a> {
             labs,
             candidates,
             corrected: OnceCell::new(),
-            stage: RunCache::new(models),
+            stage: RunCache::new(models, lesson.conventions.languages),
         }
     }
 
@@ -261,7 +261,7 @@ impl<'a> Partners<'a> {
     /// difference intentionally.
     fn is_contrasted(&self, case: ClaimOwner<'_>, first: &Judgement, second: &Judgement) -> bool {
         let [as_is, corrected] = [self.labs, self.corrected()].map(|labs| {
-            let stage = RunCache::new(self.models);
+            let stage = RunCache::new(self.models, self.lesson.conventions.languages);
             let started = start_runs(self.lesson, labs, case.verify, case.lab, &stage);
             started.map_or(Vec::new(), |started| started.runs)
         });
@@ -295,7 +295,12 @@ impl<'a> Partners<'a> {
                 let programs = vec![(candidate.text.clone(), one)];
                 let alone = Coupled { programs, others: PairSet::NONE, changes, refresh: false };
                 let labs = corrected(self.labs, &alone);
-                let second = self.judge(case, &labs, &RunCache::new(self.models), TestedNumerics::All)?;
+                let second = self.judge(
+                    case,
+                    &labs,
+                    &RunCache::new(self.models, self.lesson.conventions.languages),
+                    TestedNumerics::All,
+                )?;
                 differs(first, &second).then_some(one)
             };
             let pairs: PairSet = candidate.pairs.pairs().filter_map(matters).collect();

@@ -3,6 +3,7 @@
 
 use super::denial::is_denied;
 use super::numeral::Chars;
+use crate::language::Languages;
 use labspec_bind::units::is_wide;
 
 pub(super) const BOUND: &str = "a bound, not a number";
@@ -15,39 +16,8 @@ pub(super) const LETTERS: &str = "a number followed by letters";
 /// Number of characters that are read on either side.
 pub(super) const MAX_CONTEXT: usize = 40;
 
-/// Words before a number that make it a bound.
-const BOUNDS: [&str; 30] = [
-    "less than",
-    "more than",
-    "fewer than",
-    "greater than",
-    "smaller than",
-    "larger than",
-    "longer than",
-    "shorter than",
-    "higher than",
-    "lower than",
-    "slower than",
-    "faster than",
-    "other than",
-    "different from",
-    "at most",
-    "at least",
-    "below",
-    "above",
-    "under",
-    "over",
-    "exceeds",
-    "exceed",
-    "exceeding",
-    "weniger als",
-    "mehr als",
-    "mindestens",
-    "höchstens",
-    "moins de",
-    "plus de",
-    "beyond",
-];
+/// Words before a number that exclude it.
+const EXCLUSIONS: [&str; 2] = ["other than", "different from"];
 
 /// Words before a number that change its value.
 const CHANGING_WORDS: [&str; 70] = [
@@ -258,7 +228,10 @@ fn words_before(chars: Chars<'_>, at: usize) -> Option<&'static str> {
         |word: &str| line.strip_suffix(word).is_some_and(|rest| !rest.ends_with(char::is_alphanumeric));
     // `up to` and `no more than` state the largest value itself.
     let largest = ["no more than", "no less than"].into_iter().any(ends);
-    if BOUNDS.into_iter().any(ends) && !largest {
+    // Whatever the language of the lesson: a bound is no number.
+    let lower = Languages::ALL.words(|language| language.lower_bounds);
+    let mut bounds = lower.chain(Languages::ALL.words(|language| language.upper_bounds)).chain(EXCLUSIONS);
+    if bounds.any(ends) && !largest {
         return Some(BOUND);
     }
     if CHANGING_WORDS.into_iter().any(ends)

@@ -36,7 +36,7 @@ pub use number::{NumberForm, Quoted, Style};
 pub(super) use option_text::{OptionNumber, option_ratio, option_text};
 pub use quote_claim::{OtherValue, QuoteOutcome, QuoteState};
 pub(super) use quote_claim::{QuoteClaim, QuotePlace, QuoteValue};
-pub(super) use read::{QuotePart, parts, read_quote, whole};
+pub(super) use read::{QuotePart, parts, read_quote_in, whole};
 pub use read::{Unread, quoted};
 pub use rendered::RenderedText;
 pub use stated::{Counted, Stated, answered, claimed, counted, stated};

@@ -2,67 +2,13 @@
 
 use super::denial::is_denied;
 use super::number::{NumberForm, Quoted, Style};
+use crate::language::{Language, Languages};
+use labspec_bind::units::is_wide;
 
-/// Words for an approximate number. Trailing zeros before the point are then not digits of it.
-pub(super) const APPROXIMATE: [&str; 13] = [
-    "about",
-    "around",
-    "roughly",
-    "approximately",
-    "nearly",
-    "almost",
-    "some",
-    "circa",
-    "ca.",
-    "~",
-    "≈",
-    "约",
-    "約",
-];
-/// Words for a number that is slightly smaller.
-const SLIGHTLY_LESS: [&str; 7] =
-    ["nearly", "almost", "just under", "just below", "slightly less than", "a little less than", "knapp"];
-/// Words for a number that is slightly larger.
-const SLIGHTLY_MORE: [&str; 5] =
-    ["just over", "just above", "slightly more than", "a little more than", "a bit more than"];
-/// Words for the largest value.
-const LARGEST: [&str; 2] = ["up to", "bis zu"];
-/// Words for a lower bound.
-pub(super) const LOWER_BOUND_WORDS: [&str; 17] = [
-    "more than",
-    "greater than",
-    "larger than",
-    "longer than",
-    "higher than",
-    "faster than",
-    "at least",
-    "above",
-    "over",
-    "beyond",
-    "exceeds",
-    "exceed",
-    "exceeding",
-    "mehr als",
-    "mindestens",
-    ">",
-    "≥",
-];
-/// Words for an upper bound.
-pub(super) const UPPER_BOUND_WORDS: [&str; 13] = [
-    "less than",
-    "smaller than",
-    "shorter than",
-    "lower than",
-    "slower than",
-    "fewer than",
-    "at most",
-    "below",
-    "under",
-    "weniger als",
-    "höchstens",
-    "<",
-    "≤",
-];
+/// Signs for an approximate number, a lower bound and an upper bound, in every language.
+const APPROXIMATE_SIGNS: [&str; 2] = ["~", "≈"];
+const LOWER_BOUND_SIGNS: [&str; 2] = [">", "≥"];
+const UPPER_BOUND_SIGNS: [&str; 2] = ["<", "≤"];
 
 /// The largest part of a number that `about` leaves open.
 const ABOUT: f64 = 0.1;
@@ -74,33 +20,68 @@ pub(super) fn ends_with(text: &str, word: &str) -> bool {
 
 /// The number with the interval that the words before it state, or its magnitude after `±`. `None` if they state no interval, or
 /// if they are negated.
-pub(super) fn modified(q: &Quoted, before: &str) -> Option<Quoted> {
+pub(super) fn modified(q: &Quoted, before: &str, languages: Languages) -> Option<Quoted> {
     if !matches!(q.form, NumberForm::Plain(_) | NumberForm::Fraction | NumberForm::Share) {
         return None;
     }
     let line = before.rsplit('\n').next().unwrap_or("").to_lowercase();
     let line = line.trim_end();
     let form = |low: f64, high: f64| Some(Quoted { form: NumberForm::Interval(low, high), ..*q });
-    let ends = |list: &[&str]| {
-        let word = list.iter().filter(|word| ends_with(line, word)).max_by_key(|word| word.len())?;
-        Some(line.strip_suffix(word).unwrap_or("").trim_end())
-    };
-    let open = |list: &[&str]| ends(list).is_some_and(|rest| !is_denied(rest) && !rest.ends_with("n't"));
     let x = q.value;
     let unit = 2.0 * q.half_unit;
     if line.ends_with('±') || line.ends_with("+/-") {
         return Some(Quoted { form: NumberForm::Magnitude, ..*q });
     }
+    let states = |words: WordList| {
+        let rest = line.strip_suffix(last_word(line, words, languages)?)?.trim_end();
+        (!is_denied(rest) && !rest.ends_with("n't")).then_some(())
+    };
     // "slightly less than" ends with "less than": the longer words first.
     match () {
-        () if open(&SLIGHTLY_LESS) => form(x - unit.max(left_open(q)), x),
-        () if open(&SLIGHTLY_MORE) => form(x, x + unit.max(left_open(q))),
-        () if open(&LARGEST) => form(x - unit, x + q.half_unit),
-        () if open(&LOWER_BOUND_WORDS) => form(x, f64::INFINITY),
-        () if open(&UPPER_BOUND_WORDS) => form(f64::NEG_INFINITY, x),
-        () if open(&APPROXIMATE) && left_open(q) > q.half_unit => form(x - left_open(q), x + left_open(q)),
+        () if states(WordList::SlightlyLess).is_some() => form(x - unit.max(left_open(q)), x),
+        () if states(WordList::SlightlyMore).is_some() => form(x, x + unit.max(left_open(q))),
+        () if states(WordList::Largest).is_some() => form(x - unit, x + q.half_unit),
+        () if states(WordList::LowerBound).is_some() => form(x, f64::INFINITY),
+        () if states(WordList::UpperBound).is_some() => form(f64::NEG_INFINITY, x),
+        () if states(WordList::Approximate).is_some() && left_open(q) > q.half_unit => {
+            form(x - left_open(q), x + left_open(q))
+        }
         () => None,
     }
+}
+
+/// A list of words of a language.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum WordList {
+    Approximate,
+    SlightlyLess,
+    SlightlyMore,
+    Largest,
+    LowerBound,
+    UpperBound,
+}
+
+impl WordList {
+    /// The words in some languages, and the signs.
+    fn words(self, languages: Languages) -> impl Iterator<Item = &'static str> {
+        let (of, signs): (fn(&'static Language) -> _, &'static [&'static str]) = match self {
+            WordList::Approximate => (|l| l.approximate, &APPROXIMATE_SIGNS),
+            WordList::SlightlyLess => (|l| l.slightly_less, &[]),
+            WordList::SlightlyMore => (|l| l.slightly_more, &[]),
+            WordList::Largest => (|l| l.largest, &[]),
+            WordList::LowerBound => (|l| l.lower_bounds, &LOWER_BOUND_SIGNS),
+            WordList::UpperBound => (|l| l.upper_bounds, &UPPER_BOUND_SIGNS),
+        };
+        languages.words(of).chain(signs.iter().copied())
+    }
+}
+
+/// The longest word of a list with which a text ends. Words of scripts without spaces, and signs, need no space before them.
+pub(super) fn last_word(text: &str, words: WordList, languages: Languages) -> Option<&'static str> {
+    let is_attached = |word: &str| word.chars().all(|c| is_wide(c) || !c.is_alphanumeric());
+    let ends =
+        |word: &&'static str| if is_attached(word) { text.ends_with(word) } else { ends_with(text, word) };
+    words.words(languages).filter(ends).max_by_key(|word| word.len())
 }
 
 /// How much `about` leaves open: half a unit of the last digit that is not zero, for a number without decimals, and at most a tenth.
@@ -118,7 +99,8 @@ fn left_open(q: &Quoted) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::read::read_quote;
+    use super::super::read::{read_quote, read_quote_in};
+    use crate::language::Languages;
 
     #[test]
     fn words_state_intervals() {
@@ -141,6 +123,24 @@ mod tests {
             assert!(right.iter().all(|x| read.is(*x)), "{quote}: {read:?}");
             assert!(!wrong.iter().any(|x| read.is(*x)), "{quote}: {read:?}");
         }
+        for (code, quote, right, wrong) in [
+            ("de", "etwa 200 ms", 181.0, 250.0),
+            ("de", "knapp 1,5 s", 1.42, 1.51),
+            ("fr", "environ 200 ms", 203.0, 250.0),
+            ("fr", "au moins 3 N", 3.1, 2.9),
+            ("es", "un poco más de 2 s", 2.3, 1.9),
+            ("it", "fino a 0,45 rad/s", 0.442, 0.46),
+            ("zh", "约200 ms", 203.0, 250.0),
+        ] {
+            for languages in [Languages::ALL, Languages::with_codes([code]).unwrap_or_default()] {
+                let read = read_quote_in(quote, languages).unwrap_or_else(|e| panic!("{quote}: {e:?}")).read;
+                assert!(read.is(right) && !read.is(wrong), "{quote}: {read:?}");
+            }
+        }
+        // A word of a language in which the lesson is not written.
+        let english = Languages::with_codes(["en"]).unwrap_or_default();
+        assert!(read_quote_in("environ 200 ms", english).is_ok_and(|reading| !reading.read.is(203.0)));
+        assert!(read_quote_in("au moins 3 N", english).is_err());
         for refused in ["not over 0.4 s", "isn't above 3 N", "never more than 3 N", "other than 3 N"] {
             assert!(read_quote(refused).is_err(), "{refused}");
         }

@@ -26,6 +26,9 @@ pub(super) struct Numeral {
     pub(super) refused: Option<&'static str>,
 }
 
+/// Why a number with one comma is ambiguous.
+pub(super) const DECIMAL_COMMA: &str = "its comma may separate decimals or two numbers";
+
 /// Maximum number of digits of a number; no computation has more.
 const MAX_DIGITS: usize = 30;
 /// Largest power of ten, so that printing does not overflow.
@@ -160,7 +163,7 @@ fn mantissa(text: &str) -> IResult<&str, Mantissa> {
             all.refused = Some("digits with several commas");
             return Ok((rest, all));
         }
-        all.is_ambiguous = (all.digits != "0").then_some("its comma may separate decimals or two numbers");
+        all.is_ambiguous = (all.digits != "0").then_some(DECIMAL_COMMA);
         all.decimals = after.len();
         all.digits = format!("{}.{after}", all.digits);
         return Ok((rest, all));

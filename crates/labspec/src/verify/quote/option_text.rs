@@ -1,12 +1,13 @@
 //! The quantity that the text of an option states, with its precision according to the words.
 
 use super::context::BOUND;
-use super::modifier::{APPROXIMATE, LOWER_BOUND_WORDS, UPPER_BOUND_WORDS, ends_with};
+use super::modifier::{WordList, ends_with, last_word};
 use super::number::{NumberForm, Quoted};
 use super::numeral::Chars;
 use super::quantity::{Quantity, quantities};
 use super::unit_text::Unit;
 use super::{fold, html};
+use crate::language::Languages;
 use labspec_bind::units;
 
 /// The quantity that an option states.
@@ -56,7 +57,7 @@ const ELSE: [&str; 14] = [
 
 /// The only quantity with a unit that an option states; `None` where it states several, or where its words give the number
 /// another meaning.
-pub(in crate::verify) fn option_text(option: &str) -> Option<OptionNumber> {
+pub(in crate::verify) fn option_text(option: &str, languages: Languages) -> Option<OptionNumber> {
     let (rendered, _) = html::strip(option);
     let (folded, _) = fold::fold(&rendered, false);
     // Markers of bold and italic text are not products.
@@ -77,7 +78,7 @@ pub(in crate::verify) fn option_text(option: &str) -> Option<OptionNumber> {
     if compares(&behind) || of_something_else {
         return None;
     }
-    let (low, high) = stated_range(q, before)?;
+    let (low, high) = stated_range(q, before, languages)?;
     let rest = format!("{} {}", chars.text(0, q.whole.start), chars.text(q.whole.end, chars.0.len()));
     let text = chars.text(q.whole.start, q.whole.end);
     Some(OptionNumber { text, low, high, unit, alone: has_no_content(&rest) })
@@ -95,11 +96,9 @@ fn compares(behind: &str) -> bool {
 }
 
 /// The range that agrees with a quantity, given the text before it; `None` where the words give it another meaning.
-fn stated_range(q: &Quantity, before: &str) -> Option<(f64, f64)> {
-    let is_about = APPROXIMATE.into_iter().any(|w| match w.is_ascii() && w != "~" {
-        true => ends_with(before, w),
-        false => before.ends_with(w),
-    });
+fn stated_range(q: &Quantity, before: &str, languages: Languages) -> Option<(f64, f64)> {
+    let states = |words: WordList| last_word(before, words, languages).is_some();
+    let is_about = [WordList::Approximate, WordList::SlightlyLess].into_iter().any(states);
     let Quoted { value, half_unit, form, .. } = q.quoted;
     match (q.refused, form) {
         (None, NumberForm::Range(a, b) | NumberForm::PlusMinus(a, b)) => Some((a, b)),
@@ -108,8 +107,7 @@ fn stated_range(q: &Quantity, before: &str) -> Option<(f64, f64)> {
             Some((value - off, value + off))
         }
         (Some(BOUND), NumberForm::Plain(_)) => {
-            let states = |list: &[&str]| list.iter().any(|w| before.ends_with(w));
-            match (states(&LOWER_BOUND_WORDS), states(&UPPER_BOUND_WORDS)) {
+            match (states(WordList::LowerBound), states(WordList::UpperBound)) {
                 (true, false) => Some((value, f64::INFINITY)),
                 (false, true) => Some((f64::NEG_INFINITY, value)),
                 _ => None,
@@ -262,7 +260,7 @@ mod tests {
 
     #[test]
     fn the_number_of_an_option_is_read() {
-        let parsed = |text: &str| option_text(text).map(|n| (n.text, n.low, n.high));
+        let parsed = |text: &str| option_text(text, Languages::ALL).map(|n| (n.text, n.low, n.high));
         let is = |text: &str, low: f64, high: f64| {
             let (rendered, a, b) = parsed(text).unwrap_or_else(|| panic!("{text}"));
             assert!(
@@ -294,7 +292,7 @@ mod tests {
         ] {
             assert_eq!(parsed(text), None, "{text}");
         }
-        let alone = |text: &str| option_text(text).unwrap().alone;
+        let alone = |text: &str| option_text(text, Languages::ALL).unwrap().alone;
         assert!(alone("about 7 m") && alone("h = 7 m.") && alone("**7 m**") && !alone("It rises to 7 m"));
     }
 

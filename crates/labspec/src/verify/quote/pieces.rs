@@ -17,6 +17,11 @@ pub(super) fn rendered_pieces(lesson: &Lesson) -> Vec<Text> {
             push_question(question, &mut all);
         }
     }
+    for piece in &mut all {
+        if let Some(visible) = lesson.conventions.without_macros(&piece.value) {
+            piece.value = visible;
+        }
+    }
     all
 }
 

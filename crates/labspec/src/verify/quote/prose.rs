@@ -44,8 +44,10 @@ fn read(lesson: &Lesson) -> (Vec<Text>, Vec<RenderedTable>) {
     if lesson.problems.iter().any(too_much) {
         return Default::default();
     }
-    let text = lesson.file.text();
+    let hidden = lesson.conventions.without_macros(lesson.file.text());
+    let text = hidden.as_deref().unwrap_or(lesson.file.text());
     let mut reader = ProseReader {
+        front_matter: &lesson.conventions.front_matter,
         text,
         blocks: &lesson.scan.blocks,
         pieces: Vec::new(),
@@ -98,6 +100,8 @@ fn notes(text: &str) -> BTreeSet<String> {
 
 struct ProseReader<'t> {
     text: &'t str,
+    /// The keys of the front matter whose values are rendered.
+    front_matter: &'t [String],
     blocks: &'t [Block],
     pieces: Vec<Text>,
     tables: Tables,
@@ -119,8 +123,9 @@ impl ProseReader<'_> {
     /// Reads from `from` on. Returns where to resume when a damaged fence contains the text after it. The function is long
     /// because it has one arm for each event of the Markdown parser.
     fn pass(&mut self, from: usize) -> Option<usize> {
-        // In a fence: whether its text is rendered. In the metadata before the lesson: `false`.
+        // In a fence: whether its text is rendered. In the front matter: `false`.
         let mut fence: Option<bool> = None;
+        let mut in_front_matter = false;
         self.hidden.end();
         self.unseen = 0;
         for (event, range) in Parser::new_ext(self.text.get(from..)?, OPTIONS).into_offset_iter() {
@@ -134,10 +139,11 @@ impl ProseReader<'_> {
                     }
                     fence = Some(rendered);
                 }
-                Event::Start(Tag::MetadataBlock(_)) => fence = Some(false),
+                Event::Start(Tag::MetadataBlock(_)) => (fence, in_front_matter) = (Some(false), true),
+                Event::Text(ref part) if in_front_matter => self.front_matter(part, range),
                 Event::End(TagEnd::CodeBlock | TagEnd::MetadataBlock(_)) => {
                     self.close();
-                    fence = None;
+                    (fence, in_front_matter) = (None, false);
                     let output = std::mem::take(&mut self.output);
                     self.tables.printed(&output);
                 }
@@ -179,6 +185,26 @@ impl ProseReader<'_> {
         }
         self.close();
         None
+    }
+
+    /// Reads the values of the front matter that a page displays, one piece for each: `title: "A fall of 2 m"`.
+    fn front_matter(&mut self, part: &str, range: Range<usize>) {
+        if self.text.get(range.clone()) != Some(part) {
+            return;
+        }
+        let mut at = range.start;
+        for line in part.split_inclusive('\n') {
+            let pair = line
+                .split_once(':')
+                .filter(|(key, _)| self.front_matter.iter().any(|shown| shown == key.trim()));
+            if let Some((key, value)) = pair {
+                let shown = value.trim().trim_matches(['"', '\'']);
+                let start = at + key.len() + 1 + value.find(shown).unwrap_or(0);
+                self.add(shown, start..start + shown.len());
+                self.close();
+            }
+            at += line.len();
+        }
     }
 
     /// Processes the events of a table.

@@ -4,9 +4,10 @@
 use super::clause_unit::clause_unit;
 use super::context::before;
 use super::context_after::after;
-use super::number::{NumberForm, Quoted, ten};
-use super::numeral::{Chars, Numeral, numbers};
+use super::number::{NumberForm, Quoted, Style, ten};
+use super::numeral::{Chars, DECIMAL_COMMA, Numeral, numbers};
 use super::unit_text::{Link, Unit, unit_after};
+use crate::language::Languages;
 use std::ops::Range;
 
 /// A quantity with its position, in characters.
@@ -37,6 +38,27 @@ impl Quantity {
     pub(super) fn states(&self, other: &Quantity) -> bool {
         let (a, b) = (&self.quoted, &other.quoted);
         a.value.to_bits() == b.value.to_bits() && a.half_unit == b.half_unit && a.form == b.form
+    }
+}
+
+impl Quantity {
+    /// The quantity in languages that agree on the meaning of a comma: `1,500` is 1500 in English and 1.5 in German.
+    pub(super) fn with_comma(mut self, languages: Languages) -> Quantity {
+        let Some(is_decimal) = languages.decimal_comma() else { return self };
+        let NumberForm::Plain(style) = self.quoted.form else { return self };
+        if is_decimal && self.is_ambiguous == Some(DECIMAL_COMMA) {
+            self.is_ambiguous = None;
+        }
+        if style.group != Some(',') || self.quoted.exponent != 0 {
+            return self;
+        }
+        if let (true, [value]) = (is_decimal, self.ambiguities.as_slice()) {
+            let form = NumberForm::Plain(Style { group: None, ..style });
+            self.quoted =
+                Quoted { value: *value, half_unit: 0.5 * ten(-3), decimals: 3, form, ..self.quoted };
+        }
+        self.ambiguities.clear();
+        self
     }
 }
 

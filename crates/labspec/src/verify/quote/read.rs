@@ -7,6 +7,7 @@ use super::numeral::Chars;
 use super::quantity::{Quantity, as_share, quantities, singles};
 use super::unit_text::Unit;
 use super::{fold, html};
+use crate::language::Languages;
 
 /// The reading of a quote.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,6 +68,11 @@ fn characters(text: &str) -> Vec<char> {
 
 /// The number that a quote states, with its other possible readings.
 pub(in crate::verify) fn read_quote(text: &str) -> Result<QuoteReading, Unread> {
+    read_quote_in(text, Languages::ALL)
+}
+
+/// The number that a quote in some languages states.
+pub(in crate::verify) fn read_quote_in(text: &str, languages: Languages) -> Result<QuoteReading, Unread> {
     let chars = characters(text);
     if chars.len() > MAX_QUOTE {
         return Err(Unread::Form("a text as long as a paragraph"));
@@ -83,7 +89,7 @@ pub(in crate::verify) fn read_quote(text: &str) -> Result<QuoteReading, Unread> 
     if first.change {
         return Err(Unread::Form("a change from one number to another, or a range"));
     }
-    let mut reading = of_quantity(chars, first)?;
+    let mut reading = of_quantity(chars, first, languages)?;
     let several = "it contains more than one number";
     let others = all.get(at + 1..).unwrap_or_default();
     reading.last = others.is_empty();
@@ -97,9 +103,10 @@ pub(in crate::verify) fn read_quote(text: &str) -> Result<QuoteReading, Unread> 
 }
 
 /// The reading of one quantity.
-fn of_quantity(chars: Chars<'_>, q: &Quantity) -> Result<QuoteReading, Unread> {
+fn of_quantity(chars: Chars<'_>, q: &Quantity, languages: Languages) -> Result<QuoteReading, Unread> {
+    let q = &q.clone().with_comma(languages);
     let interval = match q.refused {
-        None | Some(BOUND | PLUS_MINUS) => modified(&q.quoted, &chars.text(0, q.whole.start)),
+        None | Some(BOUND | PLUS_MINUS) => modified(&q.quoted, &chars.text(0, q.whole.start), languages),
         Some(_) => None,
     };
     if let (Some(form), None) = (q.refused, interval) {
@@ -138,13 +145,13 @@ pub(in crate::verify) struct QuotePart {
 }
 
 /// A quote as one part.
-pub(in crate::verify) fn whole(text: &str) -> QuotePart {
-    QuotePart { text: text.to_string(), reading: read_quote(text) }
+pub(in crate::verify) fn whole(text: &str, languages: Languages) -> QuotePart {
+    QuotePart { text: text.to_string(), reading: read_quote_in(text, languages) }
 }
 
 /// The parts of a text that state one number each, in order. A range is one part, unless its two ends give the `expected`
 /// number of parts.
-pub(in crate::verify) fn parts(text: &str, expected: usize) -> Vec<QuotePart> {
+pub(in crate::verify) fn parts(text: &str, expected: usize, languages: Languages) -> Vec<QuotePart> {
     let chars = characters(text);
     let chars = Chars(&chars);
     let mut all = quantities(chars);
@@ -155,7 +162,7 @@ pub(in crate::verify) fn parts(text: &str, expected: usize) -> Vec<QuotePart> {
     let last = all.len().saturating_sub(1);
     let part = |(i, q): (usize, &Quantity)| QuotePart {
         text: chars.text(q.whole.start, q.whole.end),
-        reading: of_quantity(chars, q).map(|reading| QuoteReading { last: i == last, ..reading }),
+        reading: of_quantity(chars, q, languages).map(|reading| QuoteReading { last: i == last, ..reading }),
     };
     all.iter().enumerate().map(part).collect()
 }

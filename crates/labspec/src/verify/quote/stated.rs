@@ -168,6 +168,7 @@ fn add_numbers(lesson: &Lesson, text: &Text, all: &mut Vec<Stated>) {
         if all.len() > MAX_NUMBERS {
             return;
         }
+        let q = q.with_comma(lesson.conventions.languages);
         let bound = q.refused == Some(BOUND);
         if q.refused.is_some() && !bound || !q.quoted.value.is_finite() {
             continue;

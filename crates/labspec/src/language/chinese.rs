@@ -1,0 +1,14 @@
+use super::Language;
+
+// Words for bounds, such as `大于`, make a number unreadable.
+pub(super) static CHINESE: Language = Language {
+    code: "zh",
+    name: "Chinese",
+    decimal_comma: false,
+    approximate: &["约", "約", "大约", "大約"],
+    slightly_less: &[],
+    slightly_more: &[],
+    largest: &[],
+    lower_bounds: &[],
+    upper_bounds: &[],
+};

@@ -1,0 +1,128 @@
+//! The languages of lessons: the words before a number that state an interval, and the decimal separator.
+//!
+//! One table for each language. Words that make a number unreadable are not among them: these are recognized in every text,
+//! whatever its language.
+
+mod chinese;
+mod english;
+mod french;
+mod german;
+mod italian;
+mod spanish;
+
+/// The words of a language.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Language {
+    /// The code of ISO 639: `de`.
+    pub code: &'static str,
+    /// Its English name.
+    pub name: &'static str,
+    /// Whether decimals follow a comma: `0,44 s`.
+    pub decimal_comma: bool,
+    /// Before an approximate number. Trailing zeros before the point are then not digits of it: `about 200 ms`.
+    pub approximate: &'static [&'static str],
+    /// Before a number that is slightly larger than the value: `nearly 1.5 s`.
+    pub slightly_less: &'static [&'static str],
+    /// Before a number that is slightly smaller than the value: `just over 2 s`.
+    pub slightly_more: &'static [&'static str],
+    /// Before the largest value: `up to 0.45 rad/s`.
+    pub largest: &'static [&'static str],
+    /// Before a lower bound: `more than 3 N`.
+    pub lower_bounds: &'static [&'static str],
+    /// Before an upper bound: `less than 1 mm`.
+    pub upper_bounds: &'static [&'static str],
+}
+
+/// All languages.
+pub static LANGUAGES: [&Language; 6] = [
+    &english::ENGLISH,
+    &german::GERMAN,
+    &french::FRENCH,
+    &spanish::SPANISH,
+    &italian::ITALIAN,
+    &chinese::CHINESE,
+];
+
+/// A set of languages, in which a lesson may be written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Languages(u8);
+
+impl Default for Languages {
+    /// All languages.
+    fn default() -> Languages {
+        Languages::ALL
+    }
+}
+
+impl Languages {
+    /// All languages.
+    pub const ALL: Languages = Languages((1 << LANGUAGES.len()) - 1);
+
+    /// The languages with these codes.
+    ///
+    /// # Errors
+    /// A code is unknown, which is returned.
+    pub fn with_codes<'c>(codes: impl IntoIterator<Item = &'c str>) -> Result<Languages, &'c str> {
+        codes.into_iter().try_fold(Languages(0), |all, code| {
+            let at = LANGUAGES.iter().position(|language| language.code == code).ok_or(code)?;
+            Ok(Languages(all.0 | 1 << at))
+        })
+    }
+
+    /// The languages of the set.
+    pub fn iter(self) -> impl Iterator<Item = &'static Language> {
+        let is_one = move |(at, _): &(usize, &&'static Language)| self.0 & 1 << at != 0;
+        LANGUAGES.iter().enumerate().filter(is_one).map(|(_, language)| *language)
+    }
+
+    /// Whether decimals follow a comma; `None` if the languages differ.
+    pub fn decimal_comma(self) -> Option<bool> {
+        let mut all = self.iter().map(|language| language.decimal_comma);
+        let first = all.next()?;
+        all.all(|comma| comma == first).then_some(first)
+    }
+
+    /// The words of one kind in all languages of the set.
+    pub(crate) fn words(
+        self,
+        of: impl Fn(&'static Language) -> &'static [&'static str],
+    ) -> impl Iterator<Item = &'static str> {
+        self.iter().flat_map(move |language| of(language).iter().copied())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sets_have_the_words_of_their_languages() {
+        let german = Languages::with_codes(["de"]).unwrap_or_default();
+        assert_eq!(german.decimal_comma(), Some(true));
+        assert!(german.words(|l| l.approximate).any(|word| word == "etwa"));
+        assert!(!german.words(|l| l.approximate).any(|word| word == "about"));
+        assert_eq!(Languages::ALL.iter().count(), LANGUAGES.len());
+        assert_eq!(Languages::ALL.decimal_comma(), None);
+        assert_eq!(Languages::with_codes(["en", "xx"]), Err("xx"));
+    }
+
+    #[test]
+    fn words_are_in_lower_case_and_have_one_meaning_in_a_language() {
+        for language in LANGUAGES {
+            let lists = [
+                language.approximate,
+                language.slightly_less,
+                language.slightly_more,
+                language.largest,
+                language.lower_bounds,
+                language.upper_bounds,
+            ];
+            let mut all: Vec<&str> = lists.concat();
+            assert!(all.iter().all(|word| *word == word.to_lowercase()), "{}", language.name);
+            all.sort_unstable();
+            let count = all.len();
+            all.dedup();
+            assert_eq!(all.len(), count, "{}", language.name);
+        }
+    }
+}
