@@ -80,6 +80,40 @@ fn a_baseline_contains_the_findings_of_the_whole_course() {
     assert!(new.code == 1 && new.stdout.contains("c.md"), "{}", new.stdout);
 }
 
+/// A course with a lab that cannot run is adopted: its claims are in the baseline until they, or the reason, change.
+#[test]
+fn a_baseline_contains_the_claims_of_a_lab_that_cannot_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let broken = |text: &str| text.replacen(&format!("\"xml\":{}", json!(BALL)), "\"model\":\"gone\"", 1);
+    let text = lesson("a");
+    assert_ne!(broken(&text), text);
+    write(folder.path(), "a.md", &broken(&text));
+    let check =
+        |more: &[&str]| run_in(folder.path(), &[&["check", ".", "--baseline", "known.json"], more].concat());
+    assert_eq!(check(&[]).code, 2, "there is no baseline yet");
+    check(&["--update-baseline"]);
+    let again = check(&[]);
+    assert_eq!(again.code, 0, "{}", again.stdout);
+    assert!(again.stdout.contains("no problems outside the baseline"), "{}", again.stdout);
+    // A changed claim is new, and so is the claim of another question.
+    let changed = broken(&text).replacen("\"answer\":0", "\"answer\":1", 1);
+    assert_ne!(changed, broken(&text));
+    write(folder.path(), "a.md", &changed);
+    assert_eq!(check(&[]).code, 1);
+    write(
+        folder.path(),
+        "a.md",
+        &format!("{}\n{}", broken(&text), broken(&lesson("b")).replacen("# ", "## ", 1)),
+    );
+    assert_eq!(check(&[]).code, 1);
+    // The lab runs again, and the claim is checked: true, and false.
+    write(folder.path(), "a.md", &text);
+    let right = check(&[]);
+    assert!(right.code == 0 && right.stdout.contains("1 answer verified"), "{}", right.stdout);
+    write(folder.path(), "a.md", &text.replacen("\"answer\":0", "\"answer\":1", 1));
+    assert_eq!(check(&[]).code, 1);
+}
+
 #[test]
 fn routes_of_a_site_are_checked() {
     let folder = folder();

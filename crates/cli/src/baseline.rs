@@ -3,14 +3,21 @@
 //! A finding is identified by its file, its code, its message and the text of its line, not by the line number, so that it is
 //! still recognized when text moves. A finding about a claim is also identified by the claim, by the claimed value and by the
 //! computed value: if the key or a value changes, the finding is new. The baseline stores how many equal findings there were.
+//!
+//! It also stores the claims that could not be checked because of a finding elsewhere, such as those of a lab that cannot run,
+//! with the reason. A claim that can be checked later is checked like any other.
 
 use super::common::Failure;
+use super::digest;
 use super::output_kind::OutputKind;
 use super::report_json::{StoredReport, read_report, write_report};
 use labspec::finding::Finding;
+use labspec::ledger::{Entry, State, Subject};
+use labspec::markdown::Block;
 use labspec::source::SourceFile;
+use labspec::spec::{FileKind, Lesson, kind_of};
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 const STORED: StoredReport = StoredReport {
@@ -50,9 +57,32 @@ fn once() -> usize {
     1
 }
 
+/// The identification of a claim that could not be checked.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+struct UncheckedKey {
+    file: String,
+    /// Its kind: `answer`.
+    kind: String,
+    /// The claim among several of its owner.
+    part: String,
+    reason: String,
+    /// The digest of its block: whatever changes there makes other claims of them.
+    block: String,
+}
+
+#[derive(Serialize, Deserialize)]
+struct UncheckedEntry {
+    #[serde(flatten)]
+    key: UncheckedKey,
+    #[serde(default = "once")]
+    count: usize,
+}
+
 #[derive(Serialize, Deserialize)]
 struct BaselineFile {
     findings: Vec<BaselineEntry>,
+    #[serde(default)]
+    unchecked: Vec<UncheckedEntry>,
 }
 
 /// The number of occurrences of each finding in the baseline.
@@ -60,6 +90,7 @@ struct BaselineFile {
 pub(super) struct Baseline {
     folder: PathBuf,
     baselined: BTreeMap<(BaselineKey, Option<ClaimKey>), usize>,
+    unchecked: BTreeMap<UncheckedKey, usize>,
 }
 
 impl Baseline {
@@ -67,15 +98,20 @@ impl Baseline {
     pub(super) fn new(path: &Path) -> Baseline {
         let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_path_buf());
-        Baseline { folder, baselined: BTreeMap::new() }
+        Baseline { folder, ..Baseline::default() }
     }
 
     /// # Errors
     /// The file cannot be read, or is not a baseline.
     pub(super) fn read(path: &Path) -> Result<Baseline, Failure> {
         let mut all = Baseline::new(path);
-        for BaselineEntry { key, count, claim } in read_report::<BaselineFile>(path, &STORED)?.findings {
+        let BaselineFile { findings, unchecked } = read_report(path, &STORED)?;
+        for BaselineEntry { key, count, claim } in findings {
             let baselined = all.baselined.entry((key, claim)).or_default();
+            *baselined = baselined.saturating_add(count);
+        }
+        for UncheckedEntry { key, count } in unchecked {
+            let baselined = all.unchecked.entry(key).or_default();
             *baselined = baselined.saturating_add(count);
         }
         Ok(all)
@@ -98,7 +134,21 @@ impl Baseline {
         baselined
     }
 
-    /// Adds findings to the baseline, and writes it.
+    /// The claims that could not be checked before, for the same reason, as indexes of the entries.
+    pub(super) fn unchecked(&self, entries: &[Entry], lessons: &[&Lesson]) -> BTreeSet<usize> {
+        let mut met: BTreeMap<_, usize> = BTreeMap::new();
+        let open = entries.iter().enumerate().filter(|(_, entry)| is_unchecked_claim(entry));
+        let known = open.filter(|(_, entry)| {
+            let key = self.unchecked_key(entry, lessons);
+            let most = self.unchecked.get(&key).copied().unwrap_or(0);
+            let count = met.entry(key).or_default();
+            *count += 1;
+            *count <= most
+        });
+        known.map(|(i, _)| i).collect()
+    }
+
+    /// Adds findings and unchecked claims to the baseline, and writes it.
     ///
     /// # Errors
     /// The file cannot be written.
@@ -107,30 +157,61 @@ impl Baseline {
         path: &Path,
         findings: &[Finding],
         files: &[&SourceFile],
+        (entries, lessons): (&[Entry], &[&Lesson]),
     ) -> Result<(), Failure> {
+        for entry in entries.iter().filter(|entry| is_unchecked_claim(entry)) {
+            *self.unchecked.entry(self.unchecked_key(entry, lessons)).or_default() += 1;
+        }
         for f in findings {
             *self.baselined.entry(self.key(f, files)).or_default() += 1;
         }
         let entries = self.baselined.into_iter();
         let findings = entries.map(|((key, claim), count)| BaselineEntry { key, count, claim }).collect();
-        write_report(path, &STORED, &BaselineFile { findings })
+        let unchecked =
+            self.unchecked.into_iter().map(|(key, count)| UncheckedEntry { key, count }).collect();
+        write_report(path, &STORED, &BaselineFile { findings, unchecked })
     }
 
     fn key(&self, f: &Finding, files: &[&SourceFile]) -> (BaselineKey, Option<ClaimKey>) {
-        let path = Path::new(&*f.path);
-        let whole = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
-        let name = whole.strip_prefix(&self.folder).unwrap_or(&whole);
-        let name: Vec<String> =
-            name.components().map(|c| c.as_os_str().to_string_lossy().into_owned()).collect();
         let file = files.iter().find(|file| *file.path() == f.path);
-        let line = file.map_or("", |file| line(file.text(), f.span.start));
+        let line = file.map_or("", |file| line(file.text(), f.span.start)).to_string();
         let claim = f.claim.as_ref().map(|c| ClaimKey {
             claim: if c.part.is_empty() { c.owner.clone() } else { format!("{}, {}", c.owner, c.part) },
             result: c.result.clone(),
         });
-        let (file, code, message) = (name.join("/"), f.code.to_string(), f.message.clone());
-        (BaselineKey { file, code, message, line: line.to_string() }, claim)
+        let (file, code, message) = (self.relative(&f.path), f.code.to_string(), f.message.clone());
+        (BaselineKey { file, code, message, line }, claim)
     }
+
+    fn unchecked_key(&self, entry: &Entry, lessons: &[&Lesson]) -> UncheckedKey {
+        let lesson = lessons.iter().find(|lesson| *lesson.file.path() == entry.path);
+        let text = lesson.map_or("", |lesson| {
+            let holds =
+                |block: &&Block| block.span.start <= entry.span.start && entry.span.end <= block.span.end;
+            let block = lesson.scan.blocks.iter().find(holds).map(|block| block.span.clone());
+            let is_json = kind_of(Path::new(&*entry.path)) == FileKind::Json;
+            let whole = || if is_json { 0..lesson.file.text().len() } else { entry.span.clone() };
+            lesson.file.slice(block.unwrap_or_else(whole))
+        });
+        let [kind, part, reason] = [entry.subject.as_str(), &entry.what, &entry.remark].map(str::to_string);
+        let block = digest::hex_of(&[text.as_bytes()]);
+        UncheckedKey { file: self.relative(&entry.path), kind, part, reason, block }
+    }
+
+    /// The path of a file from the folder of the baseline.
+    fn relative(&self, path: &str) -> String {
+        let whole = Path::new(path).canonicalize().unwrap_or_else(|_| PathBuf::from(path));
+        let name = whole.strip_prefix(&self.folder).unwrap_or(&whole);
+        let parts: Vec<String> =
+            name.components().map(|c| c.as_os_str().to_string_lossy().into_owned()).collect();
+        parts.join("/")
+    }
+}
+
+/// Whether an entry is a claim that could not be checked.
+fn is_unchecked_claim(entry: &Entry) -> bool {
+    let claims = [Subject::Answer, Subject::Option, Subject::Quote, Subject::ClosedForm, Subject::Run];
+    entry.state == State::Unchecked && claims.contains(&entry.subject)
 }
 
 /// The line that contains a position, without surrounding space.
@@ -158,7 +239,7 @@ mod tests {
             places.map(|(at, _)| Finding::new(rules::UNKNOWN_KEY, at..at + 1, "odd").at(file)).collect()
         };
         let old = file("one\n  odd here\nodd there\n");
-        Baseline::new(&path).write(&path, &found(&old, "odd"), &[&old]).unwrap();
+        Baseline::new(&path).write(&path, &found(&old, "odd"), &[&old], (&[], &[])).unwrap();
         let new = file("one\n\n\nodd there\nodd here\n odd here\n");
         let mut findings = found(&new, "odd");
         let baselined = Baseline::read(&path).unwrap().apply(&mut findings, &[&new]);

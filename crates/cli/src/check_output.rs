@@ -16,6 +16,7 @@ use labspec::ledger::{self, Entry, State, Subject};
 use labspec::report::html::Material;
 use labspec::report::{self, printable_lines, printable_path};
 use labspec::source::SourceFile;
+use labspec::spec::Lesson;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -138,7 +139,9 @@ fn write_files(
                 printable_path(file)
             ));
         }
-        Baseline::new(file).write(file, &results.findings, sources)?;
+        let lessons: Vec<&Lesson> = results.checked.iter().map(|c| &c.lesson).collect();
+        let claims = (results.ledger.entries(), lessons.as_slice());
+        Baseline::new(file).write(file, &results.findings, sources, claims)?;
     }
     if let Some(file) = options.record.filter(|_| !interrupted()) {
         reproduction::write(file, &reproduction::current(file, results))?;

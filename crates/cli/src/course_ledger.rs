@@ -1,5 +1,6 @@
 //! The ledger of a course: the claims of all lessons and models, adjusted for suppressed findings.
 
+use super::baseline::Baseline;
 use super::common::Failure;
 use super::course::CourseResults;
 use super::policy::Policies;
@@ -32,6 +33,7 @@ pub(super) fn build_ledger(
     results: &CourseResults,
     files: &FileOutcomes,
     policies: &mut Policies,
+    baseline: Option<&Baseline>,
 ) -> Result<Ledger, Failure> {
     let mut ledger = check::ledger(&results.checked, &results.findings);
     ledger.break_off(|path| files.cancelled.contains(path));
@@ -41,6 +43,11 @@ pub(super) fn build_ledger(
     ledger.append(of_files);
     accept_page_widgets(&mut ledger, results, policies)?;
     keep_suppressed_failures(&mut ledger, results);
+    if let Some(baseline) = baseline {
+        let lessons: Vec<&Lesson> = results.checked.iter().map(|c| &c.lesson).collect();
+        let unchecked = baseline.unchecked(ledger.entries(), &lessons);
+        ledger.mark_baselined_at(&unchecked);
+    }
     Ok(ledger)
 }
 

@@ -53,7 +53,7 @@ fn check_with_hash(request: &CheckRequest<'_>, cache: &Cache, hash: Hash) -> Res
     files.skipped.extend(skipped);
     add_course_findings(request, &jobs, &mut models, &mut results);
     apply_policies(request, &mut policies, &mut results)?;
-    results.ledger = build_ledger(&results, &files, &mut policies)?;
+    results.ledger = build_ledger(&results, &files, &mut policies, request.baseline)?;
     Ok(results)
 }
 

@@ -5,6 +5,7 @@
 
 use crate::printable::counted;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::ops::Range;
 use std::sync::Arc;
@@ -337,6 +338,15 @@ impl Ledger {
         for entry in self.entries.iter_mut().filter(|e| e.state == State::Skipped && is_broken_off(&e.path)) {
             (entry.state, entry.word) = (State::Unchecked, "unchecked");
             entry.remark = "the check of this lesson was interrupted".into();
+        }
+    }
+
+    /// Marks unchecked entries as baselined, by their indexes.
+    pub fn mark_baselined_at(&mut self, at: &BTreeSet<usize>) {
+        for (i, entry) in self.entries.iter_mut().enumerate() {
+            if entry.state == State::Unchecked && at.contains(&i) {
+                (entry.state, entry.word) = (State::Known, "known");
+            }
         }
     }
 
