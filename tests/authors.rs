@@ -639,3 +639,23 @@ fn slider_of(target: &str) -> Value {
     };
     json!({"label": "parameter", "set": target, "min": min, "max": max, "step": (max - min) / 3.0, "value": value, "init": true})
 }
+
+/// A misspelt name in the condition of a search is reported before anything is run.
+#[test]
+fn conditions_of_searches_are_checked_without_runs() {
+    let folder = folder();
+    let check = |holds: &str, runs: &Value| {
+        let find = json!({"limit": {"largest": "timestep", "from": 0.001, "to": 0.01, "tol": 1e-4, "run": "long", "while": holds}});
+        let verify = json!({"runs": runs, "measure": {"low": "min(data.qpos[2])"}, "find": find, "says": [["0.002 s", "limit"]]});
+        let lab = json!({"xml": BALL, "stopAt": 0.6, "readouts": [{"label": "z (m)", "expr": "data.qpos[2]"}], "verify": verify});
+        write(folder.path(), "a.md", &format!("# A ball\n\nAt 0.002 s.\n\n```lab simlab\n{lab}\n```\n"));
+        run_in(folder.path(), &["check", "a.md", "--no-run", "--format", "concise"]).stdout
+    };
+    let one = json!({"long": {"until": 0.5}});
+    let two = json!({"short": {"until": 0.1}, "long": {"until": 0.5}});
+    for runs in [one, two] {
+        let wrong = check("lwo > 0", &runs);
+        assert!(wrong.contains("unknown-name") && wrong.contains("low"), "{wrong}");
+        assert_eq!(check("low > 0", &runs), "");
+    }
+}

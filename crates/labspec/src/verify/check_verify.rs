@@ -79,6 +79,7 @@ pub(crate) fn lint_verify(bound: &BoundVerify<'_>, verify: &Verify, findings: &m
     for text in verify.table.iter().flat_map(Column::expressions) {
         lint_column(bound, text, findings);
     }
+    bound.lint_searches(findings);
     for claim in &verify.exact {
         let _ = exact::bind_closed_form(bound, claim, findings);
     }

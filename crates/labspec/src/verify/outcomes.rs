@@ -29,9 +29,7 @@ impl BoundVerify<'_> {
         numerics: StepVariant,
         findings: &mut Vec<Finding>,
     ) -> Option<search::SearchLimit> {
-        let named = |run: &&BoundRun<'_>| find.run.as_ref().is_none_or(|name| name.value == run.name);
-        let mut runs = self.runs.iter().filter(named);
-        let (Some(run), None) = (runs.next(), runs.next()) else {
+        let Some(case) = self.search_case(find) else {
             let place = find.run.as_ref().unwrap_or(&find.name).span();
             findings.push(
                 Finding::error(rules::RUN_IMPOSSIBLE, place, "a search needs a single run, not a sweep")
@@ -39,13 +37,23 @@ impl BoundVerify<'_> {
             );
             return None;
         };
-        let case = SearchCase {
-            find,
-            run: run.spec,
-            measure: &self.verify.measure,
-            scene: &self.scene_of(run)?.scene,
-        };
         search::search(&case, self.stage, numerics, findings)
+    }
+
+    /// Lints the conditions of all searches without executing runs.
+    pub(super) fn lint_searches(&self, findings: &mut Vec<Finding>) {
+        for case in self.verify.find.iter().filter_map(|find| self.search_case(find)) {
+            search::lint_condition(&case, self.stage, findings);
+        }
+    }
+
+    /// A search with its run and its lab; `None` if it has several runs.
+    fn search_case<'s>(&'s self, find: &'s Find) -> Option<SearchCase<'s>> {
+        let named = |run: &&BoundRun<'_>| find.run.as_ref().is_none_or(|name| name.value == run.name);
+        let mut runs = self.runs.iter().filter(named);
+        let (Some(run), None) = (runs.next(), runs.next()) else { return None };
+        let scene = &self.scene_of(run)?.scene;
+        Some(SearchCase { find, run: run.spec, measure: &self.verify.measure, scene })
     }
 }
 

@@ -110,6 +110,17 @@ pub(super) fn search(
     }
 }
 
+/// Lints the condition of a search without executing a run.
+pub(super) fn lint_condition(case: &SearchCase<'_>, stage: &RunCache<'_>, findings: &mut Vec<Finding>) {
+    let runs = case.run.cloned().into_iter().collect();
+    let verify = Verify::measuring(case.find.name.span(), runs, case.measure.to_vec());
+    let scenes = [vec![case.scene.clone()]];
+    // Errors of the run and the measures are already reported.
+    if let Some(bound) = BoundVerify::new(&verify, Some(case.scene), &scenes, stage, &mut Vec::new()) {
+        bound.lint_texts(std::iter::once(&case.find.holds), findings);
+    }
+}
+
 /// Why a search has no value, and the help.
 type NoLimit = (String, &'static str);
 
