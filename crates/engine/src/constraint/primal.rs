@@ -14,7 +14,7 @@ use crate::model::{Fields, Model};
 use std::ops::Range;
 
 /// The rounding error of a slope, relative to its terms.
-const ROUNDING: f64 = 4.0 * f64::EPSILON;
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// What is known of the cost at the start of a search direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
