@@ -1,5 +1,6 @@
 //! Outcomes and messages of quotes, with values of perturbed runs.
 
+use super::read::read_quote;
 use super::*;
 use crate::finding::{Finding, Severity};
 use crate::lint::ModelFolder;

@@ -98,6 +98,17 @@ fn notes(text: &str) -> BTreeSet<String> {
     used
 }
 
+/// What a part of the file is.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Region {
+    Prose,
+    /// A fence of printed output.
+    Output,
+    /// Another fence.
+    Hidden,
+    FrontMatter,
+}
+
 struct ProseReader<'t> {
     text: &'t str,
     /// The keys of the front matter whose values are rendered.
@@ -123,9 +134,7 @@ impl ProseReader<'_> {
     /// Reads from `from` on. Returns where to resume when a damaged fence contains the text after it. The function is long
     /// because it has one arm for each event of the Markdown parser.
     fn pass(&mut self, from: usize) -> Option<usize> {
-        // In a fence: whether its text is rendered. In the front matter: `false`.
-        let mut fence: Option<bool> = None;
-        let mut in_front_matter = false;
+        let mut region = Region::Prose;
         self.hidden.end();
         self.unseen = 0;
         for (event, range) in Parser::new_ext(self.text.get(from..)?, OPTIONS).into_offset_iter() {
@@ -137,13 +146,13 @@ impl ProseReader<'_> {
                     if resume.is_some() {
                         return resume;
                     }
-                    fence = Some(rendered);
+                    region = if rendered { Region::Output } else { Region::Hidden };
                 }
-                Event::Start(Tag::MetadataBlock(_)) => (fence, in_front_matter) = (Some(false), true),
-                Event::Text(ref part) if in_front_matter => self.front_matter(part, range),
+                Event::Start(Tag::MetadataBlock(_)) => region = Region::FrontMatter,
+                Event::Text(ref part) if region == Region::FrontMatter => self.front_matter(part, range),
                 Event::End(TagEnd::CodeBlock | TagEnd::MetadataBlock(_)) => {
                     self.close();
-                    (fence, in_front_matter) = (None, false);
+                    region = Region::Prose;
                     let output = std::mem::take(&mut self.output);
                     self.tables.printed(&output);
                 }
@@ -170,11 +179,11 @@ impl ProseReader<'_> {
                     }
                     self.close();
                 }
-                _ if fence == Some(false) || self.unseen > 0 || self.is_taken(&range) => {}
+                _ if region == Region::Hidden || self.unseen > 0 || self.is_taken(&range) => {}
                 Event::Html(part) => self.add(&part, range),
                 Event::InlineHtml(html) => self.inline_html(&html, &range),
                 _ if self.hidden.is_on() => {}
-                Event::Text(part) if fence == Some(true) => self.lines(&part, range),
+                Event::Text(part) if region == Region::Output => self.lines(&part, range),
                 Event::Text(part) => self.add(&part, range),
                 Event::Code(part) | Event::InlineMath(part) | Event::DisplayMath(part) => {
                     self.inside(&part, range)

@@ -1,6 +1,7 @@
 //! A quote must match the whole number of the text: with its sign, factor, unit and context. True quantities in many forms
 //! are read correctly; quantities that differ in one respect are never right.
 
+use super::read::read_quote;
 use super::*;
 use crate::lint::{ModelFolder, load_lesson};
 use crate::source::SourceFile;
