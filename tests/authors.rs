@@ -189,15 +189,18 @@ fn settings_state_how_texts_are_read() {
     assert_eq!(check(english, "Sie fällt etwa 400 ms.", &about), ["quote-wrong"]);
     // 1,500 in German is 1.5.
     let comma = |factor: &str| json!(["1,500 m", factor]);
-    for (settings, expr, wrong) in [
-        (german, "1.5 * z", &[][..]),
-        (german, "1500 * z", &["quote-wrong"]),
-        (english, "1500 * z", &[]),
-        (english, "1.5 * z", &["quote-wrong"]),
+    for (settings, expr, is_right) in [
+        (german, "1.5 * z", true),
+        (german, "1500 * z", false),
+        (english, "1500 * z", true),
+        (english, "1.5 * z", false),
     ] {
         let found = check(settings, "Sie fällt 1,500 m.", &comma(expr));
-        let found: Vec<&String> = found.iter().filter(|code| code.starts_with("quote-w")).collect();
-        assert_eq!(found, wrong, "{settings} {expr}");
+        assert_eq!(
+            found.iter().all(|code| !code.starts_with("quote-")),
+            is_right,
+            "{settings} {expr}: {found:?}"
+        );
     }
     // The number is only in a macro, and only in the front matter.
     let said = json!(["0.44 s", "t"]);
@@ -592,10 +595,10 @@ fn blocks_of_widgets_fit_their_schemas() {
         let done = run_in(folder.path(), &["check", "alone.md"]);
         (done.code, done.stdout.lines().last().unwrap_or_default().to_string())
     };
-    assert_eq!(alone(r#"{"place": "Rome"}"#), (0, "1 file, 1 widget valid: no problems found".into()));
+    assert_eq!(alone(r#"{"place": "Rome"}"#), (0, "1 file, 1 other widget valid: no problems found".into()));
     for (block, errors) in [("{}", "1 error"), ("{\"place\": ", "")] {
         let (code, last) = alone(block);
-        assert!(code == 1 && last.contains("1 widget invalid") && last.contains(errors), "{last}");
+        assert!(code == 1 && last.contains("1 other widget invalid") && last.contains(errors), "{last}");
     }
     // A schema that cannot be used is an error of the settings: nothing is checked.
     for (schema, words) in [("{\"pattern\": \"a\"}", "`pattern` is not supported"), ("{", "invalid JSON")] {
@@ -655,7 +658,7 @@ fn conditions_of_searches_are_checked_without_runs() {
     let two = json!({"short": {"until": 0.1}, "long": {"until": 0.5}});
     for runs in [one, two] {
         let wrong = check("lwo > 0", &runs);
-        assert!(wrong.contains("unknown-name") && wrong.contains("low"), "{wrong}");
+        assert!(wrong.contains("unknown name `lwo`"), "{wrong}");
         assert_eq!(check("low > 0", &runs), "");
     }
 }
