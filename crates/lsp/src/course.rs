@@ -4,7 +4,8 @@
 use super::context::{WorkspaceRoot, lessons_below};
 use super::documents::OpenDocument;
 use labspec::finding::Finding;
-use labspec::lint::{ModelFolder, check_course, load_lesson};
+use labspec::lint::{ModelFolder, check_course, load_lesson_at};
+use labspec::source::Sources;
 use labspec::spec::Lesson;
 use labspec::threads;
 use std::collections::BTreeMap;
@@ -46,9 +47,14 @@ impl CourseFiles {
         for file in lessons_below(folder, open) {
             let parsed = before.remove(&**file.path()).filter(|lesson| lesson.file.text() == file.text());
             let path = file.path().to_string();
-            let parse = || threads::catch_panic(|| Arc::new(load_lesson(file, &ModelFolder::unknown()))).ok();
+            // Only its own text counts: its models and other files are not read.
+            let nowhere = (Sources::default(), ModelFolder::unknown());
+            let parse = || {
+                let load = || Arc::new(load_lesson_at(file, Path::new(&path), &nowhere.0, &nowhere.1));
+                threads::catch_panic(load).ok()
+            };
             if let Some(lesson) = parsed.or_else(parse) {
-                self.lessons.insert(path, lesson);
+                self.lessons.insert(path.clone(), lesson);
             }
         }
         before.retain(|path, _| !Path::new(path).starts_with(folder));

@@ -49,6 +49,7 @@ pub fn trace<'l>(lesson: &'l Lesson, models: &Models, report_progress: &mut dyn 
     let mut origins: Vec<Origin> = numbers.iter().map(origin_of).collect();
     if !interrupt::requested() {
         rank::compare_siblings(&numbers, &mut origins, &labs, &bindings);
+        rank::compare_contrasts(&numbers, &mut origins, &labs, &bindings);
     }
     mark_unsteady(&numbers, &mut origins, &labs, &stage);
     rank::doubt_coarse(&numbers, &mut origins);

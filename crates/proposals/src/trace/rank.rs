@@ -129,8 +129,8 @@ struct CandidateMatch {
 #[derive(Default)]
 pub(super) struct Siblings<'a> {
     all: Vec<&'a MeasureMatch>,
-    /// That of a number with which the sentence contrasts the number: both are the same measure.
-    contrasted: Option<&'a MeasureMatch>,
+    /// The measure that also gives the number with which the sentence contrasts this one.
+    contrasted: Option<&'a str>,
 }
 
 /// Words between two values of the same measure: "it leaves at 0.67 m/s instead of 1.00 m/s".
@@ -195,7 +195,7 @@ fn compare_values(
         .filter_map(|c| c.constant.as_ref())
         .flat_map(|constant| constant.owner.iter().map(String::as_str))
         .collect();
-    let contrasted = siblings.contrasted.map(|hit| hit.measure.as_str());
+    let contrasted = siblings.contrasted;
     let filter = CandidateFilter { s, around, nearest, object: object(s, labs), contrasted };
     for (l, lab) in labs.iter().enumerate() {
         let far = distances.get(l).copied().unwrap_or(0.0);
@@ -246,6 +246,46 @@ fn are_contrasted(a: &Stated, b: &Stated) -> bool {
     CONTRASTS.contains(&words.to_lowercase().as_str())
 }
 
+/// The cheapest measure that gives two numbers in two runs.
+fn measure_of_both(pair: [&Stated; 2], numbers: &[Stated], labs: &[TracedLab<'_>]) -> Option<String> {
+    let matches =
+        pair.map(|s| compare_values(s, &NumberContext::new(s, numbers), labs, &Siblings::default()).1);
+    let [first, second] = &matches;
+    let both = first.iter().flat_map(|a| second.iter().map(move |b| (a, b))).filter(|(a, b)| {
+        (&a.hit.measure, &a.hit.factor) == (&b.hit.measure, &b.hit.factor) && a.hit.place != b.hit.place
+    });
+    let cheapest = both.min_by(|a, b| (a.0.cost + a.1.cost).total_cmp(&(b.0.cost + b.1.cost)));
+    cheapest.map(|(a, _)| a.hit.measure.clone())
+}
+
+/// Determines the origins of numbers again that a sentence contrasts: both are one measure in two runs.
+pub(super) fn compare_contrasts(
+    numbers: &[Stated],
+    origins: &mut [Origin],
+    labs: &[TracedLab<'_>],
+    bindings: &[Binding],
+) {
+    for (i, a) in numbers.iter().enumerate() {
+        let contrasted = |(_, b): &(usize, &Stated)| {
+            b.paragraph == a.paragraph && b.dimension.agrees(&a.dimension) && are_contrasted(a, b)
+        };
+        let Some((j, b)) = numbers.iter().enumerate().skip(i + 1).find(contrasted) else { continue };
+        let open = |at: usize| {
+            matches!(origins.get(at), Some(Origin::From(_) | Origin::Chance(_) | Origin::Unknown))
+        };
+        if !open(i) || !open(j) {
+            continue;
+        }
+        let Some(measure) = measure_of_both([a, b], numbers, labs) else { continue };
+        let siblings = Siblings { all: Vec::new(), contrasted: Some(&measure) };
+        for (at, s) in [(i, a), (j, b)] {
+            if let Some(origin) = origins.get_mut(at) {
+                *origin = self::origin(s, numbers, labs, bindings, &siblings);
+            }
+        }
+    }
+}
+
 /// Determines origins again beside the more certain ones of the same paragraph: numbers of a paragraph are about the same run, or
 /// compare the same measure in two runs.
 pub(super) fn compare_siblings(
@@ -265,14 +305,12 @@ pub(super) fn compare_siblings(
         let Some(hit) = hit else { continue };
         let others =
             numbers.iter().zip(&hits).filter(|(n, _)| n.paragraph == s.paragraph && n.span != s.span);
-        let mut siblings = Siblings::default();
-        for (n, other) in others.filter_map(|(n, other)| Some((n, other.as_ref()?))) {
-            if other.chance < hit.chance {
-                siblings.all.push(other);
-                siblings.contrasted = siblings.contrasted.or(Some(other).filter(|_| are_contrasted(s, n)));
-            }
-        }
-        if !siblings.all.is_empty() {
+        let all: Vec<&MeasureMatch> = others
+            .filter_map(|(_, other)| other.as_ref())
+            .filter(|other| other.chance < hit.chance)
+            .collect();
+        if !all.is_empty() {
+            let siblings = Siblings { all, contrasted: None };
             *origin = self::origin(s, numbers, labs, bindings, &siblings);
         }
     }
