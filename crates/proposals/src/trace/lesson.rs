@@ -53,6 +53,7 @@ pub fn trace<'l>(lesson: &'l Lesson, models: &Models, report_progress: &mut dyn 
     }
     mark_unsteady(&numbers, &mut origins, &labs, &stage);
     rank::doubt_coarse(&numbers, &mut origins);
+    rank::share_exact(&numbers, &mut origins);
     rank::share(&numbers, &mut origins);
     let outputs = outputs(lesson);
     for (s, origin) in numbers.iter().zip(&mut origins) {

@@ -435,6 +435,29 @@ pub(super) fn doubt_coarse(numbers: &[Stated], origins: &mut [Origin]) {
     }
 }
 
+/// A repeated number whose more certain origin has exactly its value has this origin: "the pull is 40 N", where another measure gives
+/// 39.9 N.
+pub(super) fn share_exact(numbers: &[Stated], origins: &mut [Origin]) {
+    let exact = |s: &Stated, hit: &MeasureMatch| close(hit.value, s.read.value);
+    let hits: Vec<(&Stated, MeasureMatch)> = numbers
+        .iter()
+        .zip(origins.iter())
+        .filter_map(|(s, o)| if let Origin::From(hit) = o { Some((s, hit.clone())) } else { None })
+        .collect();
+    for (s, origin) in numbers.iter().zip(origins) {
+        let Origin::From(hit) = &*origin else { continue };
+        if exact(s, hit) {
+            continue;
+        }
+        let same = |(other, found): &&(&Stated, MeasureMatch)| {
+            other.quote == s.quote && exact(other, found) && found.chance < hit.chance
+        };
+        if let Some((_, found)) = hits.iter().find(same) {
+            *origin = Origin::From(found.clone());
+        }
+    }
+}
+
 /// The number of digits from which a repeated number is recognized.
 const KNOWN: f64 = 3.0;
 
