@@ -40,6 +40,16 @@ impl Editor {
         editor
     }
 
+    /// An editor without an open folder: each lesson is a course of its own.
+    pub(crate) fn open_without_folder(folder: &Path) -> Editor {
+        let mut editor = Editor::start_editor(folder);
+        editor
+            .ask("initialize", json!({"rootUri": null, "initializationOptions": {"runOnSave": true}}))
+            .unwrap();
+        editor.notify("initialized", json!({}));
+        editor
+    }
+
     fn raw(&mut self, bytes: &[u8]) {
         self.to.write_all(bytes).unwrap();
         self.to.flush().unwrap();

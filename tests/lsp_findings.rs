@@ -65,7 +65,7 @@ fn with_models(models: &Path) -> tempfile::TempDir {
 fn the_editor_reports_what_the_program_reports() {
     let specs = workspace().join("specs");
     let folder = with_models(&specs.join("models"));
-    let mut editor = Editor::open(folder.path());
+    let mut editor = Editor::open_without_folder(folder.path());
     let mut reported = 0;
     for path in
         sorted_files(&specs.join("lessons")).into_iter().filter(|p| p.extension().is_some_and(|e| e == "md"))
@@ -95,7 +95,7 @@ fn the_editor_reports_what_the_program_reports() {
 #[test]
 fn the_editor_reports_the_same_about_damaged_lessons() {
     let folder = crate::program::folder();
-    let mut editor = Editor::open(folder.path());
+    let mut editor = Editor::open_without_folder(folder.path());
     let mut reported = 0;
     for path in sorted_files(&workspace().join("tests/lessons")) {
         let name = path.file_name().unwrap().to_str().unwrap();
@@ -125,7 +125,7 @@ fn the_editor_reports_the_same_about_damaged_lessons() {
 #[test]
 fn all_saved_lessons_are_run() {
     let folder = crate::program::folder();
-    let mut editor = Editor::open(folder.path());
+    let mut editor = Editor::open_without_folder(folder.path());
     let names = ["one.md", "two.md", "three.md"];
     for name in names {
         let text = wrong().replace("\"id\": \"", &format!("\"id\": \"{name}-"));
@@ -145,7 +145,7 @@ fn all_saved_lessons_are_run() {
 #[test]
 fn json_of_another_program_has_no_findings() {
     let folder = crate::program::folder();
-    let mut editor = Editor::open(folder.path());
+    let mut editor = Editor::open_without_folder(folder.path());
     let text = "{\"name\": \"not ours\", \"list\": [1, 2]}";
     assert_eq!(editor.did_open("package.json", text), json!([]));
     editor.notify("textDocument/didSave", json!({"textDocument": {"uri": editor.uri("package.json")}}));
@@ -156,7 +156,7 @@ fn json_of_another_program_has_no_findings() {
 /// Findings about several lessons together are those of a check of the folder, whichever lesson is open or changes.
 #[test]
 fn findings_about_a_course_are_those_of_a_check_of_the_folder() {
-    let folder = crate::program::folder();
+    let folder = tempfile::tempdir().unwrap();
     let quiz = |id: &str| {
         format!(
             "# Q\n\n```quiz\n{{\"id\": \"{id}\", \"questions\": [{{\"kind\": \"open\", \"q\": \"Why?\"}}]}}\n```\n"

@@ -13,8 +13,9 @@ use crate::math::{MINVAL, combine, dot, dot_slice, sum, zero};
 use crate::model::{Fields, Model};
 use std::ops::Range;
 
-/// The rounding error of a slope, relative to its terms.
-const ROUNDING: f64 = 16.0 * f64::EPSILON;
+/// The rounding errors of a slope, relative to its terms: what remains at a minimum, and what a search may consist of.
+const REMAINING_SLOPE: f64 = 2.0 * f64::EPSILON;
+const ROUNDED_SLOPE: f64 = 16.0 * f64::EPSILON;
 
 /// What is known of the cost at the start of a search direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -227,8 +228,8 @@ impl<'a> PrimalProblem<'a> {
             return 0.0;
         }
         // At the minimum the slopes of the rows cancel these terms, so their rounding error is that of the slope.
-        let rounding = ROUNDING * terms;
-        let gtol = (m.opt.tolerance * m.opt.ls_tolerance * length / scale).max(rounding);
+        let gtol = m.opt.tolerance * m.opt.ls_tolerance * length / scale;
+        let gtol = gtol.max(REMAINING_SLOPE * terms);
         let most = most.min(m.opt.ls_iterations.max(0) as u64) as usize;
         let mut eval = |alpha| {
             evaluations += 1;
@@ -252,7 +253,7 @@ impl<'a> PrimalProblem<'a> {
             Direction::Newton { slope, .. } => Point { alpha: 0.0, cost: 0.0, slope, curvature: -slope },
             Direction::Other => eval(0.0),
         };
-        if start.slope.abs() <= rounding {
+        if start.slope.abs() <= ROUNDED_SLOPE * terms {
             return 0.0;
         }
         let best = minimize(gtol, most, start, eval);
