@@ -204,7 +204,7 @@ fn settings_state_how_texts_are_read() {
     }
     // The number is only in a macro, and only in the front matter.
     let said = json!(["0.44 s", "t"]);
-    let in_macro = "{% fall 0.44 s %}";
+    let in_macro = "{% fall 0.44 s; b %}";
     assert_eq!(check("", in_macro, &said), [""; 0], "without the setting, it is text");
     assert_eq!(check("macros = [\"{% %}\"]\n", in_macro, &said), ["quote-not-found"]);
     let head = |settings: &str| {
@@ -214,8 +214,8 @@ fn settings_state_how_texts_are_read() {
             folder.path(),
             "a.md",
             &text
-                .replacen("title: {% fall 0.44 s %}", "title: \"0.44 s\"", 1)
-                .replace("{% fall 0.44 s %}", "It falls."),
+                .replacen("title: {% fall 0.44 s; b %}", "title: \"0.44 s\"", 1)
+                .replace("{% fall 0.44 s; b %}", "It falls."),
         );
         run_in(folder.path(), &["check", "a.md", "--format", "concise"])
     };
