@@ -28,6 +28,8 @@ pub mod model;
 
 pub mod data;
 
+pub mod geometry;
+
 pub mod fields;
 
 pub mod report;
