@@ -84,6 +84,13 @@ static void data_handle(labspec_status wanted, labspec_data *data)
     LAB(labspec_data_write(data, "qpos", 0, x, 1));
     LAB(labspec_data_save(data, bytes, 8, &n));
     LAB(labspec_data_restore(data, bytes, 8));
+    int32_t geom = 0;
+    labspec_contact contact = {.struct_size = sizeof contact};
+    LAB(labspec_data_contact_count(data, &n));
+    LAB(labspec_data_contact(data, 0, &contact));
+    LAB(labspec_data_ray(data, x, x + 1, 1, -1, &geom, x, x));
+    LAB(labspec_data_jacobian(data, "body", 1, NULL, x, 8, &n));
+    LAB(labspec_data_mass_matrix(data, x, 8, &n));
 }
 
 static void report_handle(labspec_status wanted, labspec_check_report *report)
@@ -353,6 +360,19 @@ static void data_arguments(labspec_data *data)
     FAILS(STATE, labspec_data_restore(data, bytes, 8));
     FAILS(STATE, labspec_data_restore(data, NULL, 0));
     FAILS(NULL, labspec_data_restore(data, NULL, 8));
+    int32_t geom = 0;
+    labspec_contact contact = {.struct_size = sizeof contact};
+    FAILS(NULL, labspec_data_contact_count(data, NULL));
+    FAILS(INDEX, labspec_data_contact(data, 1000, &contact));
+    FAILS(NULL, labspec_data_ray(data, NULL, x, 1, -1, &geom, NULL, NULL));
+    FAILS(NULL, labspec_data_ray(data, x, NULL, 1, -1, &geom, NULL, NULL));
+    FAILS(NULL, labspec_data_ray(data, x, x, 1, -1, NULL, NULL, NULL));
+    FAILS(ALIGNMENT, labspec_data_ray(data, x, x, 1, -1, &geom, NULL, MISALIGNED(double)));
+    FAILS(NAME, labspec_data_jacobian(data, "bodi", 1, NULL, NULL, 0, &n));
+    FAILS(NULL, labspec_data_jacobian(data, "point", 1, NULL, NULL, 0, &n));
+    FAILS(INDEX, labspec_data_jacobian(data, "body", 1000, NULL, NULL, 0, &n));
+    FAILS(BUFFER, labspec_data_jacobian(data, "body", 1, NULL, x, 8, &n));
+    FAILS(BUFFER, labspec_data_mass_matrix(data, x, 8, &n));
     FAILS(NULL, labspec_data_new((labspec_model *)NULL, &data));
     CHECK(data == NULL);
 }

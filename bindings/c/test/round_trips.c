@@ -87,8 +87,47 @@ static void lab_round_trip(labspec_lab *lab)
     OK(labspec_lab_state_free(state));
 }
 
+/* A ball of 2 kg that is 1 cm deep in the floor. */
+static const char BALL[] = "<mujoco><worldbody><geom type='plane' size='5 5 1'/><body pos='0 0 0.09'><freejoint/>"
+                           "<geom size='0.1' mass='2'/></body></worldbody></mujoco>";
+
+/* Contacts, rays, Jacobians and the mass matrix are those of the scene. */
+static void geometry(void)
+{
+    labspec_model *model = NULL;
+    labspec_data *data = NULL;
+    labspec_contact contact = {.struct_size = sizeof contact};
+    const double from[3] = {0, 0, 2}, along[3] = {0, 0, -2};
+    double matrix[36], distance = 0, normal[3] = {0};
+    size_t n = 0;
+    int32_t geom = 7;
+    OK(labspec_model_from_xml(BALL, NULL, &model));
+    OK(labspec_data_new(model, &data));
+    FAILS(STATE, labspec_data_ray(data, from, along, 1, -1, &geom, NULL, NULL));
+    OK(labspec_data_forward(data));
+    OK(labspec_data_contact_count(data, &n));
+    OK(labspec_data_contact(data, 0, &contact));
+    CHECK(n == 1 && contact.geom1 == 0 && contact.geom2 == 1 && contact.dim == 3);
+    CHECK(fabs(contact.dist + 0.01) < 1e-12 && contact.frame[2] == 1 && contact.force[0] > 19);
+    OK(labspec_data_ray(data, from, along, 1, -1, &geom, &distance, normal));
+    CHECK(geom == 1 && fabs(distance - 0.905) < 1e-12 && fabs(normal[2] - 1) < 1e-12);
+    OK(labspec_data_ray(data, from, along, 1, 1, &geom, &distance, NULL));
+    CHECK(geom == 0 && fabs(distance - 1) < 1e-12);
+    OK(labspec_data_ray(data, from, along, 0, 1, &geom, &distance, normal));
+    CHECK(geom == -1 && distance == -1 && normal[2] == 0);
+    OK(labspec_data_jacobian(data, "body", 1, NULL, matrix, 36, &n));
+    CHECK(n == 36 && matrix[0] == 1 && matrix[14] == 1 && matrix[21] == 1);
+    OK(labspec_data_jacobian(data, "point", 1, from, matrix, 36, &n));
+    CHECK(fabs(matrix[4] - 1.91) < 1e-12 && fabs(matrix[9] + 1.91) < 1e-12);
+    OK(labspec_data_mass_matrix(data, matrix, 36, &n));
+    CHECK(n == 36 && matrix[0] == 2 && fabs(matrix[35] - 0.008) < 1e-12);
+    OK(labspec_model_free(model));
+    OK(labspec_data_free(data));
+}
+
 int main(void)
 {
+    geometry();
     labspec_lab *lab = NULL;
     labspec_model *model = NULL;
     labspec_data *data = NULL;
