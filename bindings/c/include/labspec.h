@@ -353,6 +353,48 @@ typedef struct {
 } labspec_displayed;
 
 /**
+ * A contact of the last collision detection.
+ */
+typedef struct {
+    /**
+     * sizeof(labspec_contact), set by the caller.
+     */
+    size_t struct_size;
+    /**
+     * The geom with the smaller type.
+     */
+    int32_t geom1;
+    /**
+     * The other geom.
+     */
+    int32_t geom2;
+    /**
+     * Distance of the nearest points, m; negative is penetration.
+     */
+    double dist;
+    /**
+     * Midpoint between the two surfaces, m, world.
+     */
+    double pos[3];
+    /**
+     * Rows: the normal from geom 1 to geom 2 and two tangents, world.
+     */
+    double frame[9];
+    /**
+     * Friction: two sliding, spinning, two rolling.
+     */
+    double friction[5];
+    /**
+     * Force and torque in the frame of the contact, N and N m: the normal force first.
+     */
+    double force[6];
+    /**
+     * Dimension of the contact space: 1, 3, 4 or 6.
+     */
+    int32_t dim;
+} labspec_contact;
+
+/**
  * What the table of fields states about a field. Its texts are valid forever.
  */
 typedef struct {
@@ -888,6 +930,51 @@ labspec_status labspec_data_save(const labspec_data *data,
 labspec_status labspec_data_restore(labspec_data *data,
                                     const uint8_t *bytes,
                                     size_t length);
+
+/**
+ * The number of contacts of the last collision detection.
+ */
+labspec_status labspec_data_contact_count(const labspec_data *data, size_t *count);
+
+/**
+ * Describes a contact, from 0, with its force.
+ */
+labspec_status labspec_data_contact(const labspec_data *data, size_t index, labspec_contact *contact);
+
+/**
+ * Finds the nearest geom on a ray from a point along a direction (3 numbers each): its index, or -1 if the ray hits none; the distance
+ * as a multiple of the length of the direction, or -1; and the unit normal of its surface (3 numbers). The ray does not hit geoms of
+ * `exclude_body`, which may be -1, and those of the world only if `statics` is not 0. `distance` and `normal` may be NULL.
+ */
+labspec_status labspec_data_ray(const labspec_data *data,
+                                const double *from,
+                                const double *along,
+                                int32_t statics,
+                                int32_t exclude_body,
+                                int32_t *geom,
+                                double *distance,
+                                double *normal);
+
+/**
+ * Copies a Jacobian: the velocities of an object for each unit velocity of a degree of freedom. 6 rows of nv numbers: three of the
+ * linear velocity, world, and three of the angular velocity. `of` is "body" (its origin), "bodyCom", "geom" or "site", or "point": the
+ * point `point` (3 numbers, world), fixed to the body `index`. For the others, `point` may be NULL.
+ */
+labspec_status labspec_data_jacobian(const labspec_data *data,
+                                     const char *of,
+                                     size_t index,
+                                     const double *point,
+                                     double *buffer,
+                                     size_t capacity,
+                                     size_t *length);
+
+/**
+ * Copies the mass matrix, nv rows of nv numbers.
+ */
+labspec_status labspec_data_mass_matrix(const labspec_data *data,
+                                        double *buffer,
+                                        size_t capacity,
+                                        size_t *length);
 
 /**
  * The number of fields in the table: those of models, options, statistics and data.
