@@ -27,7 +27,10 @@ pub(crate) struct Simulation {
 }
 
 /// Calls a function with the data and their model.
-pub(crate) fn with_data(data: *const DataHandle, what: impl FnOnce(&Model, &mut Data<Full>) -> Outcome) -> Outcome {
+pub(crate) fn with_data(
+    data: *const DataHandle,
+    what: impl FnOnce(&Model, &mut Data<Full>) -> Outcome,
+) -> Outcome {
     let simulation = handles::find(data)?;
     let mut simulation = handles::lock(&simulation)?;
     let Simulation { model, data } = &mut *simulation;

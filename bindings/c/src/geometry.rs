@@ -100,7 +100,11 @@ pub unsafe extern "C" fn labspec_data_ray(
             let hit = core::ray(m, d, [a, b, c], [x, y, z], &filter)?;
             store(geom, hit.as_ref().map_or(-1, |hit| hit.geom as i32), "the pointer to the geom")?;
             if !distance.is_null() {
-                store(distance, hit.as_ref().map_or(-1.0, |hit| hit.distance), "the pointer to the distance")?;
+                store(
+                    distance,
+                    hit.as_ref().map_or(-1.0, |hit| hit.distance),
+                    "the pointer to the distance",
+                )?;
             }
             match (normal.is_null(), hit) {
                 (true, _) => Ok(()),
