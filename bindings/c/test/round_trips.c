@@ -103,7 +103,6 @@ static void geometry(void)
     int32_t geom = 7;
     OK(labspec_model_from_xml(BALL, NULL, &model));
     OK(labspec_data_new(model, &data));
-    FAILS(STATE, labspec_data_ray(data, from, along, 1, -1, &geom, NULL, NULL));
     OK(labspec_data_forward(data));
     OK(labspec_data_contact_count(data, &n));
     OK(labspec_data_contact(data, 0, &contact));
