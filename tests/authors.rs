@@ -220,8 +220,8 @@ fn settings_state_how_texts_are_read() {
         run_in(folder.path(), &["check", "a.md", "--format", "concise"])
     };
     assert!(head("").stdout.contains("quote-not-found"));
-    let shown = head("front-matter = [\"title\"]\n");
-    assert_eq!(shown.code, 0, "{}", shown.stdout);
+    let displayed = head("front-matter = [\"title\"]\n");
+    assert_eq!(displayed.code, 0, "{}", displayed.stdout);
     let config = run_in(folder.path(), &["config", "a.md"]).stdout;
     assert!(config.contains("front-matter title"), "{config}");
 }
