@@ -203,10 +203,10 @@ fn settings_state_how_texts_are_read() {
         );
     }
     // The number is only in a macro, and only in the front matter.
-    let said = json!(["0.44 s", "t"]);
+    let quote = json!(["0.44 s", "t"]);
     let in_macro = "{% fall 0.44 s; b %}";
-    assert_eq!(check("", in_macro, &said), [""; 0], "without the setting, it is text");
-    assert_eq!(check("macros = [\"{% %}\"]\n", in_macro, &said), ["quote-not-found"]);
+    assert_eq!(check("", in_macro, &quote), [""; 0], "without the setting, it is text");
+    assert_eq!(check("macros = [\"{% %}\"]\n", in_macro, &quote), ["quote-not-found"]);
     let head = |settings: &str| {
         write(folder.path(), "labspec.toml", settings);
         let text = std::fs::read_to_string(folder.path().join("a.md")).unwrap();

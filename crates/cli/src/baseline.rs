@@ -138,14 +138,14 @@ impl Baseline {
     pub(super) fn unchecked(&self, entries: &[Entry], lessons: &[&Lesson]) -> BTreeSet<usize> {
         let mut met: BTreeMap<_, usize> = BTreeMap::new();
         let open = entries.iter().enumerate().filter(|(_, entry)| is_unchecked_claim(entry));
-        let known = open.filter(|(_, entry)| {
+        let recorded = open.filter(|(_, entry)| {
             let key = self.unchecked_key(entry, lessons);
             let most = self.unchecked.get(&key).copied().unwrap_or(0);
             let count = met.entry(key).or_default();
             *count += 1;
             *count <= most
         });
-        known.map(|(i, _)| i).collect()
+        recorded.map(|(i, _)| i).collect()
     }
 
     /// Adds findings and unchecked claims to the baseline, and writes it.

@@ -83,7 +83,7 @@ impl Languages {
     }
 
     /// The words of one kind in all languages of the set.
-    pub(crate) fn words(
+    pub(crate) fn words_of(
         self,
         of: impl Fn(&'static Language) -> &'static [&'static str],
     ) -> impl Iterator<Item = &'static str> {
@@ -99,8 +99,8 @@ mod tests {
     fn sets_have_the_words_of_their_languages() {
         let german = Languages::with_codes(["de"]).unwrap_or_default();
         assert_eq!(german.decimal_comma(), Some(true));
-        assert!(german.words(|l| l.approximate).any(|word| word == "etwa"));
-        assert!(!german.words(|l| l.approximate).any(|word| word == "about"));
+        assert!(german.words_of(|l| l.approximate).any(|word| word == "etwa"));
+        assert!(!german.words_of(|l| l.approximate).any(|word| word == "about"));
         assert_eq!(Languages::ALL.iter().count(), LANGUAGES.len());
         assert_eq!(Languages::ALL.decimal_comma(), None);
         assert_eq!(Languages::with_codes(["en", "xx"]), Err("xx"));

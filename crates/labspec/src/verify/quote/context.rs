@@ -229,8 +229,8 @@ fn words_before(chars: Chars<'_>, at: usize) -> Option<&'static str> {
     // `up to` and `no more than` state the largest value itself.
     let largest = ["no more than", "no less than"].into_iter().any(ends);
     // Whatever the language of the lesson: a bound is no number.
-    let lower = Languages::ALL.words(|language| language.lower_bounds);
-    let mut bounds = lower.chain(Languages::ALL.words(|language| language.upper_bounds)).chain(EXCLUSIONS);
+    let lower = Languages::ALL.words_of(|language| language.lower_bounds);
+    let mut bounds = lower.chain(Languages::ALL.words_of(|language| language.upper_bounds)).chain(EXCLUSIONS);
     if bounds.any(ends) && !largest {
         return Some(BOUND);
     }

@@ -63,7 +63,7 @@ pub(super) enum WordList {
 
 impl WordList {
     /// The words in some languages, and the signs.
-    fn words(self, languages: Languages) -> impl Iterator<Item = &'static str> {
+    fn words_in(self, languages: Languages) -> impl Iterator<Item = &'static str> {
         let (of, signs): (fn(&'static Language) -> _, &'static [&'static str]) = match self {
             WordList::Approximate => (|l| l.approximate, &APPROXIMATE_SIGNS),
             WordList::SlightlyLess => (|l| l.slightly_less, &[]),
@@ -72,7 +72,7 @@ impl WordList {
             WordList::LowerBound => (|l| l.lower_bounds, &LOWER_BOUND_SIGNS),
             WordList::UpperBound => (|l| l.upper_bounds, &UPPER_BOUND_SIGNS),
         };
-        languages.words(of).chain(signs.iter().copied())
+        languages.words_of(of).chain(signs.iter().copied())
     }
 }
 
@@ -81,7 +81,7 @@ pub(super) fn last_word(text: &str, words: WordList, languages: Languages) -> Op
     let is_attached = |word: &str| word.chars().all(|c| is_wide(c) || !c.is_alphanumeric());
     let ends =
         |word: &&'static str| if is_attached(word) { text.ends_with(word) } else { ends_with(text, word) };
-    words.words(languages).filter(ends).max_by_key(|word| word.len())
+    words.words_in(languages).filter(ends).max_by_key(|word| word.len())
 }
 
 /// How much `about` leaves open: half a unit of the last digit that is not zero, for a number without decimals, and at most a tenth.

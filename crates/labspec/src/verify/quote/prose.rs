@@ -205,11 +205,11 @@ impl ProseReader<'_> {
         for line in part.split_inclusive('\n') {
             let pair = line
                 .split_once(':')
-                .filter(|(key, _)| self.front_matter.iter().any(|shown| shown == key.trim()));
+                .filter(|(key, _)| self.front_matter.iter().any(|displayed| displayed == key.trim()));
             if let Some((key, value)) = pair {
-                let shown = value.trim().trim_matches(['"', '\'']);
-                let start = at + key.len() + 1 + value.find(shown).unwrap_or(0);
-                self.add(shown, start..start + shown.len());
+                let displayed = value.trim().trim_matches(['"', '\'']);
+                let start = at + key.len() + 1 + value.find(displayed).unwrap_or(0);
+                self.add(displayed, start..start + displayed.len());
                 self.close();
             }
             at += line.len();
