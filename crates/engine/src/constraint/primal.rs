@@ -13,10 +13,6 @@ use crate::math::{MINVAL, combine, dot, dot_slice, sum, zero};
 use crate::model::{Fields, Model};
 use std::ops::Range;
 
-/// The rounding errors of a slope, relative to its terms: what remains at a minimum, and what a search may consist of.
-const REMAINING_SLOPE: f64 = 2.0 * f64::EPSILON;
-const ROUNDED_SLOPE: f64 = 16.0 * f64::EPSILON;
-
 /// What is known of the cost at the start of a search direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Direction {
@@ -215,21 +211,17 @@ impl<'a> PrimalProblem<'a> {
         if first && blocks.clone().all(|b| is_quadratic_along(d, s, &self.jac.blocks[b])) {
             return 1.0;
         }
-        let (mut length, mut linear, mut terms, mut quadratic) = (0.0, 0.0, 0.0, 0.0);
+        let (mut length, mut linear, mut quadratic) = (0.0, 0.0, 0.0);
         for k in dofs.flatten() {
             length += s.search[k] * s.search[k];
-            let term: f64 = s.search[k] * (s.ma[k] - d.qfrc_smooth[k]);
-            linear += term;
-            terms += term.abs();
+            linear += s.search[k] * (s.ma[k] - d.qfrc_smooth[k]);
             quadratic += 0.5 * s.search[k] * s.mv[k];
         }
         let length = length.sqrt();
         if length < MINVAL {
             return 0.0;
         }
-        // At the minimum the slopes of the rows cancel these terms, so their rounding error is that of the slope.
         let gtol = m.opt.tolerance * m.opt.ls_tolerance * length / scale;
-        let gtol = gtol.max(REMAINING_SLOPE * terms);
         let most = most.min(m.opt.ls_iterations.max(0) as u64) as usize;
         let mut eval = |alpha| {
             evaluations += 1;
@@ -253,9 +245,6 @@ impl<'a> PrimalProblem<'a> {
             Direction::Newton { slope, .. } => Point { alpha: 0.0, cost: 0.0, slope, curvature: -slope },
             Direction::Other => eval(0.0),
         };
-        if start.slope.abs() <= ROUNDED_SLOPE * terms {
-            return 0.0;
-        }
         let best = minimize(gtol, most, start, eval);
         self.d.meter.add(evaluations * price);
         best
