@@ -1,0 +1,29 @@
+"""Labs, models and checks of physics lessons, with the numbers that ``labspec check`` verifies.
+
+>>> import labspec
+>>> model = labspec.Model.from_xml("<mujoco><worldbody><body name='ball' pos='0 0 1'><freejoint/><geom size='0.1'/></body></worldbody></mujoco>")
+>>> data = labspec.Data(model)
+>>> data.step(100)
+>>> round(float(data.qpos[2]), 4)
+0.8018
+"""
+
+from ._check import Claim, Finding, Report, check
+from ._engine import Data, Model
+from ._lab import Control, Displayed, Lab, Recording
+from ._labspec import LabspecError, __VERSION__ as __version__
+
+__all__ = [
+    "Claim",
+    "Control",
+    "Data",
+    "Displayed",
+    "Finding",
+    "Lab",
+    "LabspecError",
+    "Model",
+    "Recording",
+    "Report",
+    "__version__",
+    "check",
+]

@@ -1,0 +1,32 @@
+//! labspec for Python: the module `labspec._labspec`, on which the package `labspec` builds.
+//!
+//! A thin layer over `labspec::Player`, `labspec::Checker` and the engine. Long calls release the interpreter. Fields are views of
+//! the memory of the engine, which keep their model or data alive ([`fields`]).
+
+mod data;
+mod error;
+mod fields;
+mod lab;
+mod model;
+mod models;
+mod report;
+
+#[pyo3::pymodule]
+mod _labspec {
+    #[pymodule_export]
+    use crate::data::Data;
+    #[pymodule_export]
+    use crate::error::LabspecError;
+    #[pymodule_export]
+    use crate::fields::{FieldView, field_docs};
+    #[pymodule_export]
+    use crate::lab::{Lab, LabState};
+    #[pymodule_export]
+    use crate::model::Model;
+    #[pymodule_export]
+    use crate::report::check;
+
+    /// The version of the package.
+    #[pymodule_export]
+    const __VERSION__: &str = env!("CARGO_PKG_VERSION");
+}

@@ -1,0 +1,69 @@
+//! Findings and claims of a check, as dictionaries, of which the package makes objects.
+
+use crate::models::models;
+use facade::Checker;
+use facade::check::CheckLevel;
+use facade::finding::Finding;
+use facade::ledger::Entry;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+use std::collections::BTreeMap;
+
+/// A finding as a dictionary.
+pub(crate) fn finding_dict<'py>(py: Python<'py>, f: &Finding) -> PyResult<Bound<'py, PyDict>> {
+    let dict = PyDict::new(py);
+    dict.set_item("code", f.code)?;
+    dict.set_item("severity", f.severity.as_str())?;
+    dict.set_item("message", &f.message)?;
+    dict.set_item("why", f.why.as_deref())?;
+    dict.set_item("help", f.help.as_deref())?;
+    dict.set_item("file", &*f.path)?;
+    dict.set_item("line", f.position.map(|at| at.line))?;
+    dict.set_item("column", f.position.map(|at| at.column))?;
+    dict.set_item("start", f.span.start)?;
+    dict.set_item("end", f.span.end)?;
+    dict.set_item("owner", f.claim.as_ref().map(|claim| claim.owner.as_str()))?;
+    Ok(dict)
+}
+
+fn claim_dict<'py>(py: Python<'py>, e: &Entry) -> PyResult<Bound<'py, PyDict>> {
+    let dict = PyDict::new(py);
+    dict.set_item("owner", &e.owner)?;
+    dict.set_item("subject", e.subject.as_str())?;
+    dict.set_item("state", e.state.as_str())?;
+    dict.set_item("word", e.word)?;
+    dict.set_item("part", &e.what)?;
+    dict.set_item("remark", &e.remark)?;
+    dict.set_item("start", e.span.start)?;
+    dict.set_item("end", e.span.end)?;
+    Ok(dict)
+}
+
+/// Checks a lesson: its outcome in a word, its findings and its claims. `path` names the file for messages, and its extension decides
+/// how it is read. `related` are the texts of other lessons by path. Without `runs`, nothing is simulated.
+#[pyfunction]
+#[pyo3(signature = (path, text, models=None, related=None, runs=true))]
+pub(crate) fn check<'py>(
+    py: Python<'py>,
+    path: &str,
+    text: &str,
+    models: Option<&Bound<'py, PyAny>>,
+    related: Option<BTreeMap<String, String>>,
+    runs: bool,
+) -> PyResult<(&'static str, Bound<'py, PyList>, Bound<'py, PyList>)> {
+    let level = if runs { CheckLevel::FULL } else { CheckLevel::STATIC };
+    let mut checker = Checker::new(self::models(models)?).level(level);
+    if let Some(texts) = related {
+        checker = checker.neighbours(texts);
+    }
+    let report = py.detach(|| checker.check(path, text));
+    let findings = PyList::empty(py);
+    for finding in &report.findings {
+        findings.append(finding_dict(py, finding)?)?;
+    }
+    let claims = PyList::empty(py);
+    for entry in report.entries() {
+        claims.append(claim_dict(py, entry)?)?;
+    }
+    Ok((report.outcome().as_str(), findings, claims))
+}
