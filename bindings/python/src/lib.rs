@@ -10,6 +10,7 @@ mod lab;
 mod model;
 mod models;
 mod report;
+mod sweep;
 
 #[pyo3::pymodule]
 mod _labspec {
@@ -25,6 +26,8 @@ mod _labspec {
     use crate::model::Model;
     #[pymodule_export]
     use crate::report::check;
+    #[pymodule_export]
+    use crate::sweep::{lab_json, measure};
 
     /// The version of the package.
     #[pymodule_export]

@@ -12,6 +12,7 @@ from ._check import Claim, Finding, Report, check
 from ._engine import Data, Model
 from ._lab import Control, Displayed, Lab, Recording
 from ._labspec import LabspecError, __VERSION__ as __version__
+from ._sweep import Sweep, sweep
 
 __all__ = [
     "Claim",
@@ -24,6 +25,8 @@ __all__ = [
     "Model",
     "Recording",
     "Report",
+    "Sweep",
     "__version__",
     "check",
+    "sweep",
 ]

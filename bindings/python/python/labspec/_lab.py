@@ -70,6 +70,8 @@ class Lab:
     """A lab that is open. ``lab["mass"] = 2`` moves a slider, ``lab["mass"]`` reads it."""
 
     __slots__ = ("_native", "_source")
+    _native: _labspec.Lab
+    _source: tuple[Any, ...]
 
     def __init__(self, lab: str | os.PathLike[str] | Mapping[str, Any], models: Files = None) -> None:
         """Opens ``lesson.md#2``, ``lesson.md#quiz-id.1`` or ``lab.json``, or a lab as a dictionary.
@@ -94,6 +96,14 @@ class Lab:
                 native = _labspec.Lab.from_lesson(*source)
         self._native = native
         self._source = source
+
+    def __reduce__(self) -> Any:
+        return _opened, (self._source,)
+
+    @property
+    def json(self) -> dict[str, Any]:
+        """The lab as a dictionary."""
+        return _dictionary(self._source)
 
     @property
     def time(self) -> float:
@@ -189,3 +199,17 @@ class Lab:
     def restore(self, state: _labspec.LabState) -> None:
         """Restores a state of this lab. It then continues with equal results, bit for bit."""
         self._native.restore(state)
+
+
+def _opened(source: tuple[Any, ...]) -> Lab:
+    """A lab as it was opened: its state is not part of it."""
+    lab = Lab.__new__(Lab)
+    lab._native = _labspec.Lab.from_json(*source) if len(source) == 2 else _labspec.Lab.from_lesson(*source)
+    lab._source = source
+    return lab
+
+
+def _dictionary(source: tuple[Any, ...]) -> dict[str, Any]:
+    text = source[0] if len(source) == 2 else _labspec.lab_json(*source[:3])
+    lab: dict[str, Any] = json.loads(text)
+    return lab
