@@ -34,19 +34,22 @@ impl FieldView {
             return Err(PyBufferError::new_err("this field follows from others: it cannot be written"));
         }
         let count: isize = this.shape.iter().product();
-        let wants = |flag: c_int| flags & flag == flag;
+        let asks_for = |flag: c_int| flags & flag == flag;
         // SAFETY: the interpreter passes a buffer that can be written. Its pointers are valid as long as `obj`, which is this view.
         unsafe {
             (*view).buf = this.address as *mut _;
             (*view).len = count * this.size;
             (*view).readonly = c_int::from(!this.writable);
             (*view).itemsize = this.size;
-            (*view).format =
-                if wants(ffi::PyBUF_FORMAT) { this.format.as_ptr().cast_mut() } else { std::ptr::null_mut() };
+            (*view).format = if asks_for(ffi::PyBUF_FORMAT) {
+                this.format.as_ptr().cast_mut()
+            } else {
+                std::ptr::null_mut()
+            };
             (*view).ndim = this.shape.len() as c_int;
             (*view).shape =
-                if wants(ffi::PyBUF_ND) { this.shape.as_ptr().cast_mut() } else { std::ptr::null_mut() };
-            (*view).strides = if wants(ffi::PyBUF_STRIDES) {
+                if asks_for(ffi::PyBUF_ND) { this.shape.as_ptr().cast_mut() } else { std::ptr::null_mut() };
+            (*view).strides = if asks_for(ffi::PyBUF_STRIDES) {
                 this.strides.as_ptr().cast_mut()
             } else {
                 std::ptr::null_mut()

@@ -30,7 +30,7 @@ pub(crate) struct Lab {
 pub(crate) struct LabState(Mutex<Saved>);
 
 impl Lab {
-    fn of(player: Result<Player, facade::Error>) -> PyResult<Lab> {
+    fn from_player(player: Result<Player, facade::Error>) -> PyResult<Lab> {
         Ok(Lab { player: Mutex::new(player.map_err(|e| refused(&e))?) })
     }
 
@@ -60,7 +60,7 @@ impl Lab {
     #[staticmethod]
     #[pyo3(signature = (json, models=None))]
     fn from_json(json: &str, models: Option<&Bound<'_, PyAny>>) -> PyResult<Lab> {
-        Lab::of(Player::of_lab(json, self::models(models)?))
+        Lab::from_player(Player::of_lab(json, self::models(models)?))
     }
 
     /// Opens a lab of a lesson by its address, "#2" or "#quiz-id.1".
@@ -72,7 +72,7 @@ impl Lab {
         address: &str,
         models: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Lab> {
-        Lab::of(Player::of_lesson(path, text, address, self::models(models)?))
+        Lab::from_player(Player::of_lesson(path, text, address, self::models(models)?))
     }
 
     /// Performs steps, whether or not the lab has reached its `stopAt`.
@@ -292,7 +292,7 @@ impl Lab {
 
     /// A copy of the model with the changes of controls and programs.
     fn model(&self) -> PyResult<Model> {
-        Model::of(self.lock()?.model().clone())
+        Model::from_compiled(self.lock()?.model().clone())
     }
 
     /// The findings of opening the lab and of its run so far.

@@ -65,7 +65,7 @@ pub(crate) struct Model {
 }
 
 impl Model {
-    pub(crate) fn of(model: core::Model) -> PyResult<Model> {
+    pub(crate) fn from_compiled(model: core::Model) -> PyResult<Model> {
         Ok(Model { shared: Arc::new(RwLock::new(SharedModel::new(model)?)) })
     }
 
@@ -86,20 +86,20 @@ impl Model {
     fn from_xml(py: Python<'_>, xml: &str, files: Option<&Bound<'_, PyAny>>) -> PyResult<Model> {
         let files = crate::models::files(files)?;
         let compiled = py.detach(|| core::Model::from_xml_with(xml, &*files));
-        Model::of(compiled.map_err(|e| mistakes(xml, &e))?)
+        Model::from_compiled(compiled.map_err(|e| mistakes(xml, &e))?)
     }
 
     /// Compiles a model from a file. It may refer to files in the same folder and below.
     #[staticmethod]
     fn from_file(py: Python<'_>, path: PathBuf) -> PyResult<Model> {
         let compiled = py.detach(|| core::Model::from_file(&path));
-        Model::of(compiled.map_err(|e| refused_by_engine(&e))?)
+        Model::from_compiled(compiled.map_err(|e| refused_by_engine(&e))?)
     }
 
     /// Creates a model from the bytes of `to_bytes`.
     #[staticmethod]
     fn from_bytes(bytes: &[u8]) -> PyResult<Model> {
-        Model::of(core::Model::from_bytes(bytes).map_err(|e| refused_by_engine(&e))?)
+        Model::from_compiled(core::Model::from_bytes(bytes).map_err(|e| refused_by_engine(&e))?)
     }
 
     /// The model as bytes. They are read by the same version only.
