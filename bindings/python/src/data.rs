@@ -8,7 +8,7 @@ use labspec_core::{self as core, Data as EngineData, Error, Full};
 use pyo3::exceptions::{PyIndexError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
-use std::sync::{Mutex, MutexGuard, TryLockError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, RwLock, TryLockError};
 
 /// Steps between two looks at Ctrl-C.
 const STEPS_BETWEEN_SIGNALS: usize = 10_000;
@@ -17,7 +17,8 @@ const STEPS_BETWEEN_SIGNALS: usize = 10_000;
 #[pyclass(frozen, module = "labspec")]
 pub(crate) struct Data {
     model: Py<Model>,
-    data: Mutex<EngineData<Full>>,
+    /// Replaced by `restore`: views of the data before it keep those.
+    data: RwLock<Arc<Mutex<EngineData<Full>>>>,
 }
 
 /// Functions of the model and the data, by their names without `mj_`.
@@ -37,14 +38,9 @@ const PASSES: [(&str, Pass); 11] = [
 ];
 
 impl Data {
-    fn lock(&self) -> PyResult<MutexGuard<'_, EngineData<Full>>> {
-        match self.data.try_lock() {
-            Ok(data) => Ok(data),
-            Err(TryLockError::Poisoned(data)) => Ok(data.into_inner()),
-            Err(TryLockError::WouldBlock) => {
-                Err(PyRuntimeError::new_err("another thread is using these data: give each thread its own"))
-            }
-        }
+    /// The current memory of the data.
+    fn memory(&self) -> Arc<Mutex<EngineData<Full>>> {
+        Arc::clone(&self.data.read().unwrap_or_else(PoisonError::into_inner))
     }
 
     /// Calls a function with the model and the data, without the interpreter.
@@ -53,15 +49,30 @@ impl Data {
         py: Python<'_>,
         what: impl FnOnce(&core::Model, &mut EngineData<Full>) -> Result<T, Error> + Send,
     ) -> PyResult<T> {
-        let model = self.model.get();
-        py.detach(|| -> Result<T, PyErr> {
-            if model.read().is_stale() {
-                model.write().sync()?;
+        let (model, memory) = (self.model.get(), self.memory());
+        // No lock is held while the error is made, which needs the interpreter.
+        let result = py.detach(|| -> PyResult<Result<T, Error>> {
+            if model.read().is_stale()
+                && let Err(e) = model.write().sync()
+            {
+                return Ok(Err(e));
             }
             let shared = model.read();
-            let mut data = self.lock()?;
-            what(&shared.model, &mut data).map_err(|e| refused_by_engine(&e))
-        })
+            let mut data = lock(&memory)?;
+            Ok(what(&shared.model, &mut data))
+        });
+        result?.map_err(|e| refused_by_engine(&e))
+    }
+}
+
+/// The data, unless another thread is using them.
+fn lock(memory: &Mutex<EngineData<Full>>) -> PyResult<MutexGuard<'_, EngineData<Full>>> {
+    match memory.try_lock() {
+        Ok(data) => Ok(data),
+        Err(TryLockError::Poisoned(data)) => Ok(data.into_inner()),
+        Err(TryLockError::WouldBlock) => {
+            Err(PyRuntimeError::new_err("another thread is using these data: give each thread its own"))
+        }
     }
 }
 
@@ -69,8 +80,8 @@ impl Data {
 impl Data {
     #[new]
     fn new(model: Py<Model>) -> Data {
-        let data = Mutex::new(EngineData::new(&model.get().read().model));
-        Data { model, data }
+        let data = EngineData::new(&model.get().read().model);
+        Data { model, data: RwLock::new(Arc::new(Mutex::new(data))) }
     }
 
     /// The model.
@@ -121,8 +132,9 @@ impl Data {
     /// Computes the constants of the model that depend on masses, inertias and poses. The data are set to the default configuration.
     fn set_const(&self) -> PyResult<()> {
         let mut shared = self.model.get().write();
-        shared.sync()?;
-        let mut data = self.lock()?;
+        shared.sync().map_err(|e| refused_by_engine(&e))?;
+        let memory = self.memory();
+        let mut data = lock(&memory)?;
         core::set_const(&mut shared.model, &mut data).map_err(|e| refused_by_engine(&e))
     }
 
@@ -130,12 +142,13 @@ impl Data {
     fn field<'py>(slf: &Bound<'py, Self>, name: &str) -> PyResult<Bound<'py, PyAny>> {
         let (py, field) = (slf.py(), named(&[Object::Data], name)?);
         let shared = slf.get().model.get().read();
-        let data = slf.get().lock()?;
+        let memory = slf.get().memory();
+        let data = lock(&memory)?;
         let view = core::view(&shared.model, &data, field).map_err(|e| refused_by_engine(&e))?;
         let shape = shape(&shared.model, field, view.len());
         let seen = match shape.is_empty() {
             true => None,
-            false => live(py, slf.clone().into_any().unbind(), field, view, &shape)?,
+            false => live(py, memory.clone(), field, view, &shape)?,
         };
         match seen {
             Some(seen) => Ok(seen),
@@ -149,7 +162,8 @@ impl Data {
         if !is_writable(field) {
             return Err(not_writable(field));
         }
-        let mut data = self.lock()?;
+        let memory = self.memory();
+        let mut data = lock(&memory)?;
         let mut view = data.write(field).map_err(|e| refused_by_engine(&e))?;
         store(field, &mut view, &values)
     }
@@ -160,13 +174,20 @@ impl Data {
         Ok(PyBytes::new(py, &bytes))
     }
 
-    /// Restores the bytes of `save` of the same model. The simulation continues with equal results, bit for bit.
+    /// Restores the bytes of `save` of the same model. The simulation continues with equal results, bit for bit. The data get other
+    /// memory: arrays that were taken before keep showing the data before.
     fn restore(&self, py: Python<'_>, bytes: &[u8]) -> PyResult<()> {
-        self.with(py, |m, d| core::save::restore(m, d, bytes))
+        let restored = self.with(py, |m, _| {
+            let mut restored = EngineData::new(m);
+            core::save::restore(m, &mut restored, bytes).map(|()| restored)
+        })?;
+        *self.data.write().unwrap_or_else(PoisonError::into_inner) = Arc::new(Mutex::new(restored));
+        Ok(())
     }
 
     fn __repr__(&self) -> PyResult<String> {
-        let data = self.lock()?;
+        let memory = self.memory();
+        let data = lock(&memory)?;
         Ok(format!(
             "<labspec.Data of \"{}\": t = {} s>",
             self.model.get().read().model.names.model,

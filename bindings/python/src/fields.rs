@@ -1,5 +1,5 @@
 //! Fields as views of the memory of the engine. A view is a buffer (PEP 3118), of which NumPy makes an array without a copy. It keeps
-//! the model or the data alive whose memory it shows.
+//! the memory alive that it shows.
 
 use crate::error::error;
 use labspec_core::reflect::{self, Elem, FieldId, Kind, Object, View};
@@ -8,13 +8,18 @@ use pyo3::exceptions::{PyBufferError, PyTypeError};
 use pyo3::ffi;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
+use std::any::Any;
 use std::ffi::{CStr, c_int};
+use std::sync::Arc;
+
+/// The memory of a model, or of data.
+pub(crate) type Owner = Arc<dyn Any + Send + Sync>;
 
 /// A view of a field.
 #[pyclass(frozen, module = "labspec._labspec")]
 pub(crate) struct FieldView {
-    /// The model or the data that has the memory.
-    _owner: Py<PyAny>,
+    /// What has the memory.
+    _owner: Owner,
     address: usize,
     format: &'static CStr,
     size: isize,
@@ -83,7 +88,7 @@ pub(crate) fn is_writable(field: FieldId) -> bool {
 /// A view of a field in memory, as a NumPy array. `None` if it cannot be seen in memory.
 pub(crate) fn live<'py>(
     py: Python<'py>,
-    owner: Py<PyAny>,
+    owner: Owner,
     field: FieldId,
     view: View<'_>,
     shape: &[usize],

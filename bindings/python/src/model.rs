@@ -35,14 +35,14 @@ impl SharedModel {
     }
 
     /// Takes over the numbers that Python wrote into views: what follows from a field is computed again.
-    pub(crate) fn sync(&mut self) -> PyResult<()> {
+    pub(crate) fn sync(&mut self) -> Result<(), core::Error> {
         for (field, held) in &mut self.exposed {
             let Some(view) = self.model.field(*field) else { continue };
             if is_same(view, held) {
                 continue;
             }
             *held = snapshot(view);
-            core::view_mut(&mut self.model, &mut self.nobody, *field).map_err(|e| refused_by_engine(&e))?;
+            core::view_mut(&mut self.model, &mut self.nobody, *field)?;
         }
         Ok(())
     }
@@ -105,7 +105,7 @@ impl Model {
     /// The model as bytes. They are read by the same version only.
     fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         let mut shared = self.write();
-        shared.sync()?;
+        shared.sync().map_err(|e| refused_by_engine(&e))?;
         Ok(PyBytes::new(py, &shared.model.to_bytes()))
     }
 
@@ -124,11 +124,8 @@ impl Model {
         let shape = shape.unwrap_or_default();
         let view = shared.model.field(field).ok_or_else(|| foreign(name))?;
         let held = (is_live(field) && is_writable(field)).then(|| snapshot(view));
-        let found = if shape.is_empty() {
-            None
-        } else {
-            live(py, slf.clone().into_any().unbind(), field, view, &shape)?
-        };
+        let found =
+            if shape.is_empty() { None } else { live(py, slf.get().shared.clone(), field, view, &shape)? };
         let Some(found) = found else { return copied(py, view, &shape) };
         if let Some(held) = held.filter(|_| shared.exposed.iter().all(|(f, _)| *f != field)) {
             shared.exposed.push((field, held));
@@ -143,7 +140,7 @@ impl Model {
             return Err(not_writable(field));
         }
         let mut shared = self.write();
-        shared.sync()?;
+        shared.sync().map_err(|e| refused_by_engine(&e))?;
         let SharedModel { model, nobody, exposed } = &mut *shared;
         let mut view = core::view_mut(model, nobody, field).map_err(|e| refused_by_engine(&e))?;
         store(field, &mut view, &values)?;

@@ -92,8 +92,11 @@ def test_states_come_back(model, data):
     saved = data.save()
     data.step(90)
     first = data.qpos.copy()
+    before = data.qpos
     data.restore(saved)
     data.step(90)
+    gc.collect()
+    assert before.tobytes() == first.tobytes() and not np.shares_memory(before, data.qpos)
     assert first.tobytes() == data.qpos.tobytes()
     with pytest.raises(labspec.LabspecError):
         data.restore(saved[:-1])
@@ -115,6 +118,23 @@ def test_mistakes_have_findings():
         labspec.Data(labspec.Model.from_xml(BALL)).qpos = [1, 2, 3]
     with pytest.raises(TypeError):
         labspec.Model(BALL)
+
+
+def test_an_error_in_a_thread_blocks_no_other(model):
+    data = [labspec.Data(model) for _ in range(2)]
+
+    def fail(one):
+        for _ in range(300):
+            with pytest.raises(labspec.LabspecError):
+                one.restore(b"no data")
+
+    threads = [threading.Thread(target=fail, args=(one,)) for one in data]
+    [thread.start() for thread in threads]
+    for _ in range(3000):
+        assert model.body_mass[1] == 2
+        model.body_mass = list(model.body_mass)
+    [thread.join(60) for thread in threads]
+    assert not any(thread.is_alive() for thread in threads)
 
 
 def test_threads_step_their_own_data(model):

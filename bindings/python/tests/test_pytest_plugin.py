@@ -41,6 +41,18 @@ def test_a_wrong_key_fails_with_its_evidence(lessons):
     assert "failed" not in one.parseoutcomes()
 
 
+def test_what_belongs_to_no_claim_fails_too(lessons):
+    right = lessons.path.joinpath("right.md").read_text(encoding="utf-8").replace('"id": "', '"id": "b-')
+    lab = '```lab simlba\n{"model": "bounce", "readouts": [{"label": "a", "expr": "data.time"}]}\n```\n'
+    lessons.path.joinpath("broken.md").write_text(f"{right}\n{lab}", encoding="utf-8")
+    lessons.path.joinpath("alone.md").write_text(f"# Alone\n\n{lab}", encoding="utf-8")
+    for name in ("broken.md", "alone.md"):
+        result = run(lessons, name)
+        outcomes = result.parseoutcomes()
+        assert outcomes.get("failed", 0) + outcomes.get("skipped", 0) == 1, outcomes
+        result.stdout.fnmatch_lines(["*::text *"])
+
+
 def test_without_the_option_nothing_is_collected(lessons):
     outcomes = lessons.runpytest().parseoutcomes()
     assert outcomes.keys() <= {"warnings"}

@@ -245,7 +245,10 @@ class Data(_Named):
         return self._native.save()
 
     def restore(self, content: bytes) -> None:
-        """Restores the bytes of :meth:`save` of the same model. It continues with equal results, bit for bit."""
+        """Restores the bytes of :meth:`save` of the same model. It continues with equal results, bit for bit.
+
+        The data get other memory: arrays that were taken before keep showing the data before.
+        """
         self._native.restore(content)
 
     def _object(self, kind: str, key: str | int) -> Any:

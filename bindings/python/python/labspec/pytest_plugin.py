@@ -1,7 +1,8 @@
 """Lessons as tests: ``pytest --labspec`` collects ``lesson.md::lab[#1]``, ``lesson.md::quiz[fall]::2`` and ``lesson.md::text``.
 
-A test fails if a claim of its lab, question or comment is false or could not be checked, or if there is an error in it. A question without a
-claim is skipped: nothing was verified. A lesson is checked once, when its first test runs.
+A test fails if a claim of its lab, question or comment is false or could not be checked, or if it has an error or a warning. A question without
+a claim is skipped, and so is what was not checked: nothing was verified. ``text`` has all findings that belong to no other test, so that the tests
+of a lesson pass only if ``labspec check`` reports nothing but notes. A lesson is checked once, when its first test runs.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from ._check import Claim, Finding, Report, check
 _LAB = re.compile(r'lab (#\S+)(?: "(.*)")?$', re.DOTALL)
 _QUESTION = re.compile(r"quiz (.*), question (\d+)$", re.DOTALL)
 _FAILED = ("false", "unchecked")
+_PROBLEMS = ("error", "warning")
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -52,22 +54,21 @@ class LessonFile(pytest.File):
 
     def collect(self) -> Iterator[pytest.Item | pytest.Collector]:
         """Yields a test for each lab, a group for each quiz, and one for the rest of the text."""
-        owners = dict.fromkeys(c.owner for c in self.check(runs=False).claims if c.subject != "file")
+        found = self.check(runs=False)
+        owners = dict.fromkeys(c.owner for c in found.claims if c.subject != "file")
         quizzes: dict[str, list[tuple[str, str]]] = {}
-        rest = False
+        others = []
         for owner in owners:
             if lab := _LAB.match(owner):
                 yield ClaimItem.from_parent(self, name=f"lab[{lab[2] or lab[1]}]", owners=(owner,))
             elif question := _QUESTION.match(owner):
                 quizzes.setdefault(question[1], []).append((question[2], owner))
             else:
-                rest = True
+                others.append(owner)
         for quiz, questions in quizzes.items():
             yield QuizGroup.from_parent(self, name=f"quiz[{quiz}]", questions=questions)
-        if rest or not owners:
-            others = tuple(o for o in owners if not _LAB.match(o) and not _QUESTION.match(o))
-            if others:
-                yield ClaimItem.from_parent(self, name="text", owners=others)
+        if owners or found.findings:
+            yield ClaimItem.from_parent(self, name="text", owners=tuple(others), elsewhere=tuple(o for o in owners if o not in others))
 
 
 class QuizGroup(pytest.Collector):
@@ -90,9 +91,11 @@ class ClaimFailure(Exception):
 class ClaimItem(pytest.Item):
     """The claims of a lab, a question or the text."""
 
-    def __init__(self, *, owners: tuple[str, ...], **more: Any) -> None:
+    def __init__(self, *, owners: tuple[str, ...], elsewhere: tuple[str, ...] | None = None, **more: Any) -> None:
         super().__init__(**more)
         self._owners = owners
+        #: The owners of the other tests of the lesson, if this one has all that belongs to none of them.
+        self._elsewhere = elsewhere
 
     def _lesson(self) -> LessonFile:
         lesson = self.getparent(LessonFile)
@@ -104,17 +107,22 @@ class ClaimItem(pytest.Item):
         report = self._lesson().report
         claims = [c for c in report.claims if c.owner in self._owners]
         failed = [c for c in claims if c.state in _FAILED]
-        errors = [f for f in report.findings if f.severity == "error" and self._is_about(f, claims)]
-        if failed or errors:
-            raise ClaimFailure(_evidence(failed, errors))
+        problems = [f for f in report.findings if f.severity in _PROBLEMS]
+        if self._elsewhere is None:
+            problems = [f for f in problems if _is_about(f, self._owners, claims)]
+        else:
+            of_others = [c for c in report.claims if c.owner in self._elsewhere]
+            problems = [f for f in problems if not _is_about(f, self._elsewhere, of_others)]
+        if failed or problems:
+            raise ClaimFailure(_evidence(failed, problems))
+        left = [c for c in claims if c.state == "left out"]
+        if left:
+            pytest.skip(f"not checked: {', '.join(c.owner for c in left)}")
+        if self._elsewhere is not None and not claims:
+            return
         decided = [c for c in claims if c.state == "true"]
         if not decided:
             pytest.skip("it has no claim, so nothing was verified")
-
-    def _is_about(self, finding: Finding, claims: list[Claim]) -> bool:
-        if finding.owner is not None:
-            return finding.owner in self._owners
-        return any(c.start <= finding.start and finding.end <= c.end for c in claims)
 
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
         """The evidence, without a traceback."""
@@ -125,6 +133,12 @@ class ClaimItem(pytest.Item):
     def reportinfo(self) -> tuple[Path, int | None, str]:
         """The place in the lesson."""
         return self.path, None, self.nodeid.partition("::")[2]
+
+
+def _is_about(finding: Finding, owners: tuple[str, ...], claims: list[Claim]) -> bool:
+    if finding.owner is not None:
+        return finding.owner in owners
+    return any(c.start <= finding.start and finding.end <= c.end for c in claims)
 
 
 def _evidence(failed: list[Claim], errors: list[Finding]) -> str:
