@@ -18,25 +18,28 @@ impl Conventions {
     pub(crate) fn without_macros(&self, text: &str) -> Option<String> {
         let mut hidden = String::new();
         let mut read = 0;
-        while let Some((start, end)) = self.next_macro(text, read) {
+        // The next macro of each kind. One is searched again only behind the one that was hidden, so each search reads on.
+        let mut next: Vec<_> = self.macros.iter().map(|pair| find_macro(pair, text, 0)).collect();
+        while let Some((start, end)) = next.iter().flatten().min().copied() {
             hidden.push_str(text.get(read..start)?);
             hidden.extend(text.get(start..end)?.bytes().map(|b| if b == b'\n' { '\n' } else { ' ' }));
             read = end;
+            for (found, pair) in next.iter_mut().zip(&self.macros) {
+                if found.is_some_and(|(start, _)| start < read) {
+                    *found = find_macro(pair, text, read);
+                }
+            }
         }
         (read > 0).then(|| hidden + text.get(read..).unwrap_or(""))
     }
+}
 
-    /// The bytes of the first macro from an offset on.
-    fn next_macro(&self, text: &str, from: usize) -> Option<(usize, usize)> {
-        let rest = text.get(from..)?;
-        let found = self.macros.iter().filter_map(|[open, close]| {
-            let start = rest.find(open.as_str())?;
-            let inside = start + open.len();
-            let end = inside + rest.get(inside..)?.find(close.as_str())? + close.len();
-            Some((from + start, from + end))
-        });
-        found.min()
-    }
+/// The bytes of the first macro with these delimiters from an offset on.
+fn find_macro([open, close]: &[String; 2], text: &str, from: usize) -> Option<(usize, usize)> {
+    let start = from + text.get(from..)?.find(open.as_str())?;
+    let inside = start + open.len();
+    let end = inside + text.get(inside..)?.find(close.as_str())? + close.len();
+    Some((start, end))
 }
 
 #[cfg(test)]
@@ -54,6 +57,9 @@ mod tests {
         );
         assert_eq!(hidden("a {% x"), None);
         assert_eq!(Conventions::default().without_macros("{% a %}"), None);
+        // The other delimiters are searched once, not once for each macro.
+        let many = "{%%}".repeat(200_000);
+        assert_eq!(hidden(&many).map(|hidden| hidden.trim().len()), Some(0));
         for text in ["ä {% ö %} ü", "{%%}", "<<{%>>%}"] {
             assert_eq!(hidden(text).map(|hidden| hidden.len()), Some(text.len()), "{text}");
         }
