@@ -13,7 +13,7 @@ mod quizzes;
 mod reasons;
 mod student_view;
 
-use crate::needs::needs;
+use crate::needs::{needs, requires_all, sample};
 use crate::support::{for_each, workspace};
 use claims::{Case, Needs};
 use labspec::bind::scene::Models;
@@ -38,6 +38,8 @@ pub(crate) struct Kind {
 /// The maximum number of mutants of one kind per piece, selected by the seed.
 const PLACES: usize = 2;
 const SEED: u64 = 16;
+/// One of this many mutants is in a sample.
+const STEP: usize = 5;
 /// The maximum number of survivors of each kind that the table lists.
 const NAMED: usize = 50;
 
@@ -149,7 +151,8 @@ fn planted_mistakes_are_found() {
     });
     let kinds = kinds();
     let mutants = planted(&pieces);
-    assert!(mutants.len() <= 2200, "{}", mutants.len());
+    assert!((1000..=2200).contains(&mutants.len()), "{}", mutants.len());
+    let mutants = sample(mutants, STEP);
     let detections = for_each(mutants.len(), |i| {
         let Mutant { kind, piece, json } = &mutants[i];
         let (seen, before, claimed) = &originals[*piece];
@@ -182,7 +185,10 @@ fn planted_mistakes_are_found() {
     assert!(100 * found >= 95 * seen, "without a claim: {found} of {seen}");
     let [_, seen, found] = count(&mutants, &detections, |_, ground| ground == RequiredKnowledge::Claimed);
     assert!(found == seen && seen > 0, "with a claim: {found} of {seen}");
-    hold(&table(&pieces, &mutants, &detections));
+    // The page is that of all mutants.
+    if requires_all() {
+        hold(&table(&pieces, &mutants, &detections));
+    }
 }
 
 /// All mutants that are visible and not found: their kind, their piece, and the change.

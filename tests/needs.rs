@@ -2,6 +2,9 @@
 //!
 //! Without its prerequisite, a test checks nothing, passes, and prints this past the output capture of `cargo test`, with the
 //! number of such tests so far; `zz.rs` prints the total. With `LABSPEC_REQUIRE=all`, as in `.ci/run`, it fails.
+//!
+//! Tests of large populations (thousands of random settings, all planted mistakes) take a sample, unless
+//! `LABSPEC_REQUIRE=all` is set.
 
 #![allow(clippy::unwrap_used)]
 
@@ -20,14 +23,31 @@ pub(crate) fn needs(what: &str) -> bool {
     if is_available(what) {
         return true;
     }
-    let required = std::env::var_os("LABSPEC_REQUIRE").is_some_and(|value| value == "all");
-    assert!(!required, "{}", refusal(what));
+    assert!(!requires_all(), "{}", refusal(what));
     let test = std::thread::current().name().unwrap_or("a test").to_string();
     let mut missing = MISSING.lock().unwrap();
     if missing.insert(test.clone(), what.into()).is_none() {
         say(&format!("skipped ({}): {test} needs {what}, which is not there", missing.len()));
     }
     false
+}
+
+/// Whether nothing may be left out.
+pub(crate) fn requires_all() -> bool {
+    std::env::var_os("LABSPEC_REQUIRE").is_some_and(|value| value == "all")
+}
+
+/// The cases of a population that a test takes: all of them if nothing may be left out, otherwise one of `step`.
+pub(crate) fn sample<T>(population: Vec<T>, step: usize) -> Vec<T> {
+    if requires_all() {
+        return population;
+    }
+    population.into_iter().step_by(step).collect()
+}
+
+/// The minimum number of results of a population that a sample by [`sample`] must have: half of its share.
+pub(crate) fn minimum(count: usize, step: usize) -> usize {
+    if requires_all() { count } else { count / (2 * step) }
 }
 
 fn is_available(what: &str) -> bool {

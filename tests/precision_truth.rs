@@ -18,6 +18,7 @@ use labspec_numerics::precision::{
 use labspec_numerics::stability;
 use serde_json::Value;
 use std::path::PathBuf;
+use std::sync::OnceLock;
 
 fn kinds() -> PathBuf {
     workspace().join("tests/precision/kinds.md")
@@ -42,6 +43,23 @@ fn report(lab: &Lab, options: &PrecisionOptions) -> PrecisionResults {
     let mut findings = Vec::new();
     let programs = Programs::compile(lab, &model, &mut findings);
     compare(lab, &model, &programs, options, &mut findings, &mut |_| ()).unwrap()
+}
+
+/// The labs of `precision/kinds.md`, and the report of each with the default options: several tests read them.
+fn reports_of_kinds() -> &'static (Lesson, Vec<PrecisionResults>) {
+    static REPORTS: OnceLock<(Lesson, Vec<PrecisionResults>)> = OnceLock::new();
+    REPORTS.get_or_init(|| {
+        let lesson = load_lesson(SourceFile::read(&kinds()).unwrap(), &ModelFolder::unknown());
+        let labs = lesson.addressed();
+        let reports = for_each(labs.len(), |i| report(labs[i].1, &PrecisionOptions::default()));
+        (lesson, reports)
+    })
+}
+
+/// Each lab of `precision/kinds.md` with its report.
+fn kinds_with_reports() -> Vec<(&'static Lab, &'static PrecisionResults)> {
+    let (lesson, reports) = reports_of_kinds();
+    lesson.addressed().into_iter().map(|(_, lab)| lab).zip(reports).collect()
 }
 
 /// The values of a trace or readout in a run with some numerics.
@@ -79,13 +97,11 @@ fn trace(expression: &str) -> Value {
 #[test]
 fn events_and_ends_are_those_of_equations_by_hand() {
     let truth: Value = serde_json::from_str(include_str!("golden/precision.json")).unwrap();
-    let lesson = load_lesson(SourceFile::read(&kinds()).unwrap(), &ModelFolder::unknown());
-    let labs = lesson.addressed();
+    let labs = kinds_with_reports();
     assert_eq!(labs.len(), truth.as_object().unwrap().len());
     let (mut times, mut ends) = (0, 0);
-    for (_, lab) in labs {
+    for (lab, report) in labs {
         let title = lab.title();
-        let report = report(lab, &PrecisionOptions::default());
         let expected = &truth[title];
         assert!(!expected.is_null(), "{title}");
         for (name, time) in expected["events"].as_object().unwrap() {
@@ -98,7 +114,7 @@ fn events_and_ends_are_those_of_equations_by_hand() {
             times += 1;
         }
         // The reported error of the lab's own run at the end is its distance from the truth.
-        let mine = lab_row(&report);
+        let mine = lab_row(report);
         for (label, end) in expected["end"].as_object().unwrap() {
             let i = report.targets.iter().position(|t| t.label == *label).unwrap();
             if mine.status != RunStatus::Good {
@@ -266,9 +282,7 @@ fn work_decides_and_is_the_same_again() {
 
 #[test]
 fn orders_are_printed_where_they_exist() {
-    let lesson = load_lesson(SourceFile::read(&kinds()).unwrap(), &ModelFolder::unknown());
-    for (_, lab) in lesson.addressed() {
-        let report = report(lab, &PrecisionOptions::default());
+    for (lab, report) in kinds_with_reports() {
         let touched = ["A fast ball between walls", "Dry friction", "A slam", "A pinball", "A stack"];
         let orders = report.rows.iter().flat_map(|r| r.errors.iter().filter_map(|e| e.order));
         let orders: Vec<f64> = orders.collect();
@@ -301,12 +315,10 @@ fn nothing_is_compared_beyond_the_horizon_of_chaos() {
 
 #[test]
 fn controllers_of_time_have_a_reference_as_good_as_others() {
-    let lesson = load_lesson(SourceFile::read(&kinds()).unwrap(), &ModelFolder::unknown());
-    for (_, lab) in lesson.addressed() {
+    for (lab, report) in kinds_with_reports() {
         if !["A driven oscillator", "A square wave", "Drag", "Van der Pol"].contains(&lab.title()) {
             continue;
         }
-        let report = report(lab, &PrecisionOptions::default());
         let target = &report.targets[0];
         assert!(target.uncertain <= 1e-9 * target.range, "{}: {:e}", lab.title(), target.uncertain);
     }
@@ -335,9 +347,7 @@ fn no_cost_of_a_plan_is_negative() {
 #[test]
 fn small_values_are_not_printed_as_zero() {
     // A pendulum whose plot is compared with a reference, and a stack whose contacts a page displays one step late.
-    let lesson = load_lesson(SourceFile::read(&kinds()).unwrap(), &ModelFolder::unknown());
-    for (_, lab) in lesson.addressed() {
-        let report = report(lab, &PrecisionOptions::default());
+    for (lab, report) in kinds_with_reports() {
         for row in report.rows.iter().filter(|r| r.status == RunStatus::Good) {
             for (e, target) in row.errors.iter().zip(&report.targets).filter(|(_, t)| t.is_compared()) {
                 assert!(e.largest > target.uncertain || e.below, "{}: {:?} {e:?}", lab.title(), row.setting);

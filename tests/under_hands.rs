@@ -4,7 +4,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
-use crate::needs::needs;
+use crate::needs::{minimum, needs, requires_all, sample};
 use crate::program::run_in;
 use crate::support::{recording, workspace};
 use serde_json::Value as Json;
@@ -18,6 +18,8 @@ const CLOSE: f64 = 0.1;
 /// The tolerance if the contacts of a stack at rest switch in a step, which depends on the remaining error of
 /// the solver on both sides.
 const CHATTERS: f64 = 0.5;
+/// One of this many labs is in a sample.
+const STEP: usize = 4;
 
 /// Our report of a lab.
 fn ours(lab: &str) -> Json {
@@ -186,7 +188,7 @@ fn warnings_and_margins_agree_with_the_library() {
             || l["lab"].as_str().unwrap().contains(".md#")
                 && !l["lab"].as_str().unwrap().starts_with("lesson")
     };
-    let labs: Vec<&Json> = all.iter().filter(from_course).collect();
+    let labs: Vec<&Json> = sample(all.iter().filter(from_course).collect(), STEP);
     let names: Vec<&str> = labs.iter().map(|l| l["lab"].as_str().unwrap()).collect();
     let (mut differ, mut far) = (Vec::new(), Vec::new());
     let (mut table, mut largest, mut many) = (String::new(), String::new(), [0; 2]);
@@ -215,7 +217,7 @@ fn warnings_and_margins_agree_with_the_library() {
         println!("{line}");
     }
     assert!(
-        sum.warned >= 8 && sum.wrong[0] >= 20,
+        sum.warned >= minimum(8, STEP) && sum.wrong[0] >= minimum(20, STEP),
         "{} runs that warn, {} that go wrong",
         sum.warned,
         sum.wrong[0]
@@ -223,7 +225,8 @@ fn warnings_and_margins_agree_with_the_library() {
     assert_eq!(sum.heard, sum.warned, "warnings that nobody hears:\n{}", differ.join("\n"));
     assert_eq!(sum.alarms, 0, "runs that are well there:\n{}", differ.join("\n"));
     assert!(far.is_empty(), "margins that are not the library's:\n{}", far.join("\n"));
-    if !shared {
+    // The page is that of all labs.
+    if !shared || !requires_all() {
         return;
     }
     let mut page = format!(

@@ -247,18 +247,24 @@ fn through(m: &Model, p: usize, from: Vec3, to: Vec3) -> bool {
         return false;
     }
     let [a, b]: [Vec3; 2] = [from, to].map(|x| std::array::from_fn(|k| x[k] / half[k]));
-    let length = |v: Vec3| v.iter().map(|x| x * x).sum::<f64>();
+    let square_length = |v: Vec3| v.iter().map(|x| x * x).sum::<f64>();
     let along = sub(b, a);
-    let (square, inward) = (length(along), -(0..3).map(|k| a[k] * along[k]).sum::<f64>());
-    if square > 0.0 && length(a) > 1.0 && length(b) > 1.0 && (0.0..=square).contains(&inward) {
-        let nearest = length(a) - inward * inward / square;
+    let (start, square) = (square_length(a), square_length(along));
+    // A path through the ellipsoid or through the middle of a plate has a point whose square is at most 2, and is not
+    // longer than √square: |a| ≤ √2 + √square.
+    if start > 2.0 * (2.0 + square) {
+        return false;
+    }
+    let inward = -(0..3).map(|k| a[k] * along[k]).sum::<f64>();
+    if square > 0.0 && start > 1.0 && square_length(b) > 1.0 && (0.0..=square).contains(&inward) {
+        let nearest = start - inward * inward / square;
         // A path that cuts only the edge is not reported.
         if nearest < 0.8 {
             return true;
         }
     }
     let thin = (0..3).min_by(|&i, &j| half[i].total_cmp(&half[j])).unwrap_or(0);
-    let others: Vec<usize> = (0..3).filter(|k| *k != thin).collect();
+    let others = [(thin + 1) % 3, (thin + 2) % 3];
     let plate = others.iter().all(|&k| half[k] >= 2.0 * half[thin]);
     if !plate || a[thin] * b[thin] >= 0.0 {
         return false;
