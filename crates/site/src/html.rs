@@ -6,7 +6,8 @@
 //! sheets under a licence that is not on the list of `deny.toml`; here no style is allowed, and the tokens are enough.
 
 use crate::text::escape;
-use html5gum::{HtmlString, Token, Tokenizer};
+use html5gum::{DefaultEmitter, HtmlString, StartTag, Token, Tokenizer};
+use std::collections::BTreeMap;
 
 /// Elements that stay.
 const ELEMENTS: [&str; 52] = [
@@ -76,6 +77,36 @@ const DROPPED: [&str; 12] = [
 const EVERYWHERE: [&str; 3] = ["lang", "dir", "title"];
 /// The maximum nesting of elements.
 const MAX_DEPTH: usize = 64;
+
+/// The attributes of a start tag with decoded values.
+pub(crate) type Attributes = BTreeMap<String, String>;
+
+/// The HTML with some start tags edited: `edit` gets the name and the attributes of each, and returns whether it changed them.
+/// All other text stays as it is.
+pub(crate) fn edit_start_tags(html: &str, mut edit: impl FnMut(&str, &mut Attributes) -> bool) -> String {
+    let mut emitter = DefaultEmitter::new_with_span();
+    // The content of a script contains no tags.
+    emitter.naively_switch_states(true);
+    let mut out = String::with_capacity(html.len());
+    let mut copied = 0;
+    for token in Tokenizer::new_with_emitter(html, emitter).flatten() {
+        let Token::StartTag(StartTag { name, attributes, self_closing, span, .. }) = token else { continue };
+        let name = read(&name);
+        let mut attributes: Attributes =
+            attributes.iter().map(|(name, value)| (read(name), read(value))).collect();
+        if !edit(&name, &mut attributes) {
+            continue;
+        }
+        out.push_str(html.get(copied..span.start).unwrap_or(""));
+        out.push_str(&format!("<{name}"));
+        for (attribute, value) in &attributes {
+            out.push_str(&format!(" {attribute}=\"{}\"", escape(value)));
+        }
+        out.push_str(if self_closing { "/>" } else { ">" });
+        copied = span.end;
+    }
+    out + html.get(copied..).unwrap_or("")
+}
 
 /// Decides about the addresses of links and images.
 pub(crate) trait Addresses {
@@ -235,6 +266,24 @@ fn with_formulas(html: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn only_start_tags_are_edited() {
+        let link = |name: &str, attributes: &mut Attributes| {
+            let is_link = name == "a";
+            is_link.then(|| attributes.insert("rel".into(), "noopener".into()));
+            is_link
+        };
+        let text =
+            "<p>Write <code>&lt;a href=\"http://x\"> <b id=q></code></p><script>\"<a href='y'>\"</script>";
+        assert_eq!(edit_start_tags(text, link), text);
+        let html = format!("{text}<a id=\"1\" href='?a&amp;b=\"'>ä</a> <A HREF=http://x>b</a><br/>");
+        let edited = format!(
+            "{text}<a href=\"?a&amp;b=&quot;\" id=\"1\" rel=\"noopener\">ä</a> <a href=\"http://x\" rel=\"noopener\">b</a><br/>"
+        );
+        assert_eq!(edit_start_tags(&html, link), edited);
+        assert_eq!(edit_start_tags("<a href=", link), "<a href=");
+    }
 
     /// Links to the web only.
     struct Web;

@@ -7,6 +7,7 @@
 
 use crate::archive::{Deflated, deflate, write_archive};
 use crate::assets::PageFiles;
+use crate::html::{Attributes, edit_start_tags};
 use crate::lesson::LessonPage;
 use crate::lesson_main::{lesson_attributes, lesson_main};
 use crate::names::address_from;
@@ -91,11 +92,6 @@ fn package_page(
     options: &SiteOptions,
     scorm: ScormOptions,
 ) -> String {
-    let passing = scorm.passing.map_or(String::new(), |share| format!(" passing=\"{share}\""));
-    let main = lesson_main(page)
-        .replace("<lesson-quiz id=", &format!("<lesson-quiz grades=\"scorm\"{passing} id="))
-        // A page of the web would take the place of the lesson in its frame.
-        .replace(" href=\"http", " target=\"_blank\" rel=\"noopener\" href=\"http");
     Page {
         name: &page.name,
         title: &page.title,
@@ -104,33 +100,54 @@ fn package_page(
         description: &page.lead,
         has_math: page.has_math,
         attributes: lesson_attributes(page),
-        main: without_other_pages(main, page, pages, options.base.as_deref()),
+        main: edit_start_tags(&lesson_main(page), |name, attributes| match name {
+            "lesson-quiz" => report_grades(attributes, scorm),
+            "a" => lead_out(attributes, page, pages, options.base.as_deref()),
+            _ => false,
+        }),
         is_alone: true,
         ..Page::default()
     }
     .write()
 }
 
-/// Leads links to other lessons to their pages on the site, or nowhere.
-fn without_other_pages(
-    mut main: String,
+/// A quiz reports its grade to the learning system.
+fn report_grades(attributes: &mut Attributes, scorm: ScormOptions) -> bool {
+    attributes.insert("grades".into(), "scorm".into());
+    if let Some(share) = scorm.passing {
+        attributes.insert("passing".into(), share.to_string());
+    }
+    true
+}
+
+/// A link to another lesson leads to its page on the site, or nowhere. A page of the web opens in a window of its own, because it
+/// would take the place of the lesson in its frame.
+fn lead_out(
+    attributes: &mut Attributes,
     page: &LessonPage,
     pages: &[LessonPage],
     base: Option<&str>,
-) -> String {
-    for other in pages.iter().filter(|other| other.name != page.name) {
-        let from = format!(" href=\"{}", address_from(&page.name, &other.name));
-        let to = match base {
-            Some(base) => {
-                format!(" target=\"_blank\" rel=\"noopener\" href=\"{}{}", escape(base), address(&other.name))
-            }
-            None => " class=\"dead-link\" data-lesson=\"".to_string(),
-        };
-        for end in ["\"", "#"] {
-            main = main.replace(&format!("{from}{end}"), &format!("{to}{end}"));
+) -> bool {
+    let Some(target) = attributes.get("href").cloned() else { return false };
+    let (path, fragment) = target.find('#').map_or((target.as_str(), ""), |i| target.split_at(i));
+    let others = pages.iter().filter(|other| other.name != page.name);
+    let lesson = others.into_iter().find(|other| address_from(&page.name, &other.name) == path);
+    match (lesson, base) {
+        (None, _) if !target.starts_with("http") => return false,
+        (None, _) => {}
+        (Some(other), Some(base)) => {
+            attributes.insert("href".into(), format!("{base}{}{fragment}", address(&other.name)));
+        }
+        (Some(_), None) => {
+            attributes.remove("href");
+            attributes.insert("class".into(), "dead-link".into());
+            attributes.insert("data-lesson".into(), fragment.into());
+            return true;
         }
     }
-    main
+    attributes.insert("target".into(), "_blank".into());
+    attributes.insert("rel".into(), "noopener".into());
+    true
 }
 
 /// The manifest of a package.
