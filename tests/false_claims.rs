@@ -15,7 +15,7 @@ mod snapshots;
 mod spaces;
 mod values;
 
-use crate::needs::requires_all;
+use crate::needs::takes_all;
 use crate::support::for_each;
 use crate::support::random::Random;
 use conditions::MeasuredNumber;
@@ -241,7 +241,7 @@ fn false_claims_are_never_verified() {
     let requested = variable("LABSPEC_FALSE_CLAIMS");
     let begin = std::time::Instant::now();
     let mut all = Tally::default();
-    let usual = if requires_all() { LESSONS } else { SAMPLE };
+    let usual = if takes_all() { LESSONS } else { SAMPLE };
     let lessons = variable("LABSPEC_LESSONS").map_or(usual, |n| n as usize);
     let mut from = 0;
     loop {

@@ -7,7 +7,7 @@
 // A test that cannot read its own inputs must fail.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
-use crate::needs::requires_all;
+use crate::needs::takes_all;
 use crate::rules::report_of;
 use crate::support::{for_each, workspace};
 use labspec::rules::{self, Rule, example};
@@ -288,7 +288,7 @@ fn do_help(rule: &Rule, is_listed: bool) -> Option<(Done, Reported)> {
         return Some((Done::InRightExample, finding));
     }
     // Whether the list is still right is tested where nothing may be left out.
-    let tried = text.len() < MAX_LENGTH && in_file && (!is_listed || requires_all());
+    let tried = text.len() < MAX_LENGTH && in_file && (!is_listed || takes_all());
     let mut tries = written(&text, &finding).into_iter().take(MAX_TRIES);
     let done = match tried && tries.any(|new| case.ends(&before, rule.code, &new)) {
         true => Done::Written,

@@ -13,7 +13,7 @@ mod quizzes;
 mod reasons;
 mod student_view;
 
-use crate::needs::{needs, requires_all, sample};
+use crate::needs::{needs, sample, takes_all};
 use crate::support::{for_each, workspace};
 use claims::{Case, Needs};
 use labspec::bind::scene::Models;
@@ -186,7 +186,7 @@ fn planted_mistakes_are_found() {
     let [_, seen, found] = count(&mutants, &detections, |_, ground| ground == RequiredKnowledge::Claimed);
     assert!(found == seen && seen > 0, "with a claim: {found} of {seen}");
     // The page is that of all mutants.
-    if requires_all() {
+    if takes_all() {
         hold(&table(&pieces, &mutants, &detections));
     }
 }

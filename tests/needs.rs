@@ -33,13 +33,18 @@ pub(crate) fn needs(what: &str) -> bool {
 }
 
 /// Whether nothing may be left out.
-pub(crate) fn requires_all() -> bool {
+fn requires_all() -> bool {
     std::env::var_os("LABSPEC_REQUIRE").is_some_and(|value| value == "all")
 }
 
-/// The cases of a population that a test takes: all of them if nothing may be left out, otherwise one of `step`.
+/// Whether tests take all cases of their populations: nothing may be left out, or pages are written that count all of them.
+pub(crate) fn takes_all() -> bool {
+    requires_all() || std::env::var_os("LABSPEC_BLESS").is_some()
+}
+
+/// The cases of a population that a test takes: all of them, or one of `step`.
 pub(crate) fn sample<T>(population: Vec<T>, step: usize) -> Vec<T> {
-    if requires_all() {
+    if takes_all() {
         return population;
     }
     population.into_iter().step_by(step).collect()
@@ -47,7 +52,7 @@ pub(crate) fn sample<T>(population: Vec<T>, step: usize) -> Vec<T> {
 
 /// The minimum number of results of a population that a sample by [`sample`] must have: half of its share.
 pub(crate) fn minimum(count: usize, step: usize) -> usize {
-    if requires_all() { count } else { count / (2 * step) }
+    if takes_all() { count } else { count / (2 * step) }
 }
 
 fn is_available(what: &str) -> bool {

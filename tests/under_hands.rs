@@ -4,7 +4,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
-use crate::needs::{minimum, needs, requires_all, sample};
+use crate::needs::{minimum, needs, sample, takes_all};
 use crate::program::run_in;
 use crate::support::{recording, workspace};
 use serde_json::Value as Json;
@@ -226,7 +226,7 @@ fn warnings_and_margins_agree_with_the_library() {
     assert_eq!(sum.alarms, 0, "runs that are well there:\n{}", differ.join("\n"));
     assert!(far.is_empty(), "margins that are not the library's:\n{}", far.join("\n"));
     // The page is that of all labs.
-    if !shared || !requires_all() {
+    if !shared || !takes_all() {
         return;
     }
     let mut page = format!(
