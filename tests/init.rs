@@ -63,7 +63,7 @@ fn callers_of_the_program_use_existing_commands() {
     let read = |name: &str| std::fs::read_to_string(workspace().join(name)).unwrap();
     let help = run(&["check", "--help"]).stdout;
     for (file, words) in
-        [("action.yml", vec!["--format", "github"]), (".pre-commit-hooks.yaml", vec!["labspec check"])]
+        [("action.yml", vec!["--format", "github"]), ("hooks/pre-commit", vec!["check", "--skip-others"])]
     {
         let text = read(file);
         for word in words {
@@ -71,4 +71,47 @@ fn callers_of_the_program_use_existing_commands() {
             assert!(help.contains(word), "{word}");
         }
     }
+    // What cargo installs is the package of the program.
+    for file in ["action.yml", "hooks/pre-commit", "Containerfile"] {
+        assert!(read(file).contains("cargo install") && read(file).contains("--path crates/cli"), "{file}");
+    }
+    let hook = read(".pre-commit-hooks.yaml");
+    let entry = hook.lines().find_map(|line| line.trim().strip_prefix("entry: ")).unwrap();
+    assert!(workspace().join(entry).is_file(), "{entry}");
+}
+
+/// The hook, with the files of a commit: those without a lesson are skipped, and a commit without any lesson passes.
+#[test]
+fn the_hook_checks_lessons_and_models_only() {
+    let folder = tempfile::tempdir().unwrap();
+    let files = [
+        ("README.md", "# A page\n"),
+        ("package.json", "{\"name\": \"x\"}"),
+        ("feed.xml", "<rss/>"),
+        ("part.xml", "<mujocoinclude><geom size=\"1\"/></mujocoinclude>"),
+        ("code.py", "print()"),
+        ("ball.xml", "<mujoco><worldbody><geom size=\"0.1\"/></worldbody></mujoco>"),
+        ("bad.xml", "<mujoco><worldbody><geom size=\"-1\"/></worldbody></mujoco>"),
+        ("lab.json", "{\"title\": \"x\", \"xml\": \"<mujoco/>\"}"),
+        ("bad.json", "{\"xml\": \"<mujoco/>\", \"setup\": \"data.qpso[0] = 1\"}"),
+    ];
+    files.iter().for_each(|(name, text)| std::fs::write(folder.path().join(name), text).unwrap());
+    let hook = |names: &[&str]| {
+        let mut command = std::process::Command::new("bash");
+        command.arg(workspace().join("hooks/pre-commit")).args(names).current_dir(folder.path());
+        let done = command.env("LABSPEC", env!("CARGO_BIN_EXE_labspec")).output().unwrap();
+        (done.status.code(), String::from_utf8_lossy(&done.stdout).into_owned())
+    };
+    let others = ["README.md", "package.json", "feed.xml", "part.xml", "code.py"];
+    assert_eq!(hook(&others).0, Some(0), "{:?}", hook(&others));
+    assert_eq!(hook(&["code.py"]).0, Some(0), "{:?}", hook(&["code.py"]));
+    let all = hook(&[&others[..], &["ball.xml", "lab.json"]].concat());
+    assert!(all.0 == Some(0) && all.1.contains("1 lab run") && all.1.contains("no problems"), "{all:?}");
+    for bad in ["bad.xml", "bad.json"] {
+        assert_eq!(hook(&["README.md", bad]).0, Some(1), "{bad}");
+    }
+    // Without the option, a named file must be a lesson.
+    let named = run_in(folder.path(), &["check", "package.json"]);
+    assert_eq!(named.code, 1, "{}", named.stdout);
+    assert_eq!(run_in(folder.path(), &["check", "README.md"]).code, 2);
 }

@@ -157,6 +157,7 @@ fn course_folder(paths: &[PathBuf]) -> Result<PathBuf, Failure> {
 fn check_course(a: &BuildArguments) -> Result<CourseResults, Failure> {
     let request = CheckRequest {
         paths: &a.paths,
+        skip_others: false,
         stdin: None,
         models: &a.models,
         level: CheckLevel::FULL,

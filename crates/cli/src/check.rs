@@ -61,6 +61,10 @@ pub(super) struct VerifyArguments {
     /// Compare every measure with a recording of MuJoCo, and check every claim again with its numbers
     #[arg(long, value_name = "FILE")]
     judge: Option<PathBuf>,
+    /// Skip named files that contain no lab, quiz or model, as in folders, and succeed if nothing is left: for hooks that
+    /// name every changed file
+    #[arg(long)]
+    skip_others: bool,
     /// Show only the number of findings of each rule
     #[arg(long)]
     statistics: bool,
@@ -142,6 +146,7 @@ fn run_check(
     let is_human = a.format == CheckFormat::Human;
     let request = CheckRequest {
         paths: &a.paths,
+        skip_others: a.skip_others,
         stdin: inputs.stdin.as_ref(),
         models: &a.models,
         level,
@@ -159,6 +164,7 @@ fn run_check(
     };
     let output = OutputOptions {
         paths: &a.paths,
+        skip_others: a.skip_others,
         format: a.format,
         color: a.color,
         with_evidence,

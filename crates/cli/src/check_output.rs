@@ -49,6 +49,8 @@ type Changes<'a> = (&'a Path, Vec<since::LessonChange>);
 /// The options of the output.
 pub(super) struct OutputOptions<'a> {
     pub(super) paths: &'a [PathBuf],
+    /// Whether it is no error that nothing could be checked.
+    pub(super) skip_others: bool,
     pub(super) format: CheckFormat,
     pub(super) color: Color,
     /// Whether the command is `verify`, which prints the evidence of every claim.
@@ -206,6 +208,7 @@ fn command_outcome(
     let names = || options.paths.iter().map(|p| printable_path(p)).collect::<Vec<_>>().join(", ");
     match outcome {
         ledger::Outcome::Findings => Ok(CommandOutcome::Findings),
+        ledger::Outcome::Nothing if options.skip_others => Ok(CommandOutcome::Clean),
         ledger::Outcome::Nothing if results.ledger.outcome() == ledger::Outcome::Clean => Err(format!(
             "there is nothing to verify in {}: no question and no lab has a `verify` object",
             names()

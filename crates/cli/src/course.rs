@@ -15,6 +15,8 @@ use std::path::PathBuf;
 /// The files to check, and the options of the check.
 pub(super) struct CheckRequest<'a> {
     pub(super) paths: &'a [PathBuf],
+    /// Whether named files without a lab, a quiz or a model are skipped, as in folders.
+    pub(super) skip_others: bool,
     /// The name and the text of a lesson from standard input.
     pub(super) stdin: Option<&'a (PathBuf, String)>,
     pub(super) models: &'a ModelOptions,

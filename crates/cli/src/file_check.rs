@@ -32,8 +32,8 @@ pub(super) enum FileTask {
 /// The outcome of a file.
 pub(super) enum FileOutcome {
     Lesson(Box<LessonOutcome>),
-    /// JSON of another program.
-    OtherJson,
+    /// JSON or XML of another program.
+    Other,
     Model {
         loads: bool,
         findings: Vec<Finding>,
@@ -120,13 +120,14 @@ pub(super) fn check_file(
         let (path, named) = file;
         match task {
             FileTask::Refuse(why) => FileOutcome::Refused(why.clone()),
+            FileTask::CheckModel(_) if !named && is_other_xml(path) => FileOutcome::Other,
             FileTask::CheckModel(root) => {
                 let (model, findings, sources) = check_model_file(path, Some(root));
                 FileOutcome::Model { loads: model.is_some(), findings, sources }
             }
             FileTask::CheckLesson(number) => match models.get(*number) {
                 Some(models) => check_lesson(request, cache, (path, *named), conventions, models),
-                None => FileOutcome::OtherJson,
+                None => FileOutcome::Other,
             },
         }
     };
@@ -146,7 +147,7 @@ fn check_lesson(
         Err(why) => return FileOutcome::Refused(why),
     };
     if !named && is_other_json(&lesson) {
-        return FileOutcome::OtherJson;
+        return FileOutcome::Other;
     }
     let checked =
         threads::catch_panic(|| cache.check_cached(path, &lesson, models, request.level, interrupted));
@@ -212,6 +213,15 @@ fn cancelled_lesson(lesson: Lesson, panic: &str) -> LessonOutcome {
 /// The message of a panic that ended the check of a file.
 fn panic_message(panic: &str) -> String {
     format!("labspec failed while checking this file: {panic}")
+}
+
+/// Whether the file is XML of another program, or a part that models include.
+fn is_other_xml(path: &Path) -> bool {
+    let is_root = |text: &str| {
+        text.split("<mujoco").skip(1).any(|rest| !rest.starts_with(|c: char| c.is_alphanumeric()))
+    };
+    // A text with zero bytes has another encoding, which the check reports.
+    std::fs::read(path).is_ok_and(|bytes| !bytes.contains(&0) && !is_root(&String::from_utf8_lossy(&bytes)))
 }
 
 /// Whether the file is JSON of another program, which may be in a folder of lessons. A file that the user

@@ -109,6 +109,7 @@ impl Backend for Author<'_> {
     fn check(&self, level: CheckLevel) -> Result<CourseCheck, String> {
         let request = CheckRequest {
             paths: self.paths(),
+            skip_others: false,
             stdin: None,
             models: &self.a.models,
             level,

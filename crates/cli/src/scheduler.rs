@@ -28,6 +28,7 @@ use labspec::lint;
 use labspec::report::{human, printable_path};
 use labspec::rules;
 use labspec::source::SourceFile;
+use labspec::spec::{FileKind, kind_of};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -70,7 +71,11 @@ fn select_files(request: &CheckRequest<'_>) -> Result<Collected, Failure> {
         collected.files.retain(|(path, _)| real(path) != real(name));
         collected.files.push((name.clone(), true));
     }
-    match collected.files.is_empty() {
+    if request.skip_others {
+        collected.files.retain(|(path, _)| kind_of(path) != FileKind::Unknown);
+        collected.files.iter_mut().for_each(|(_, named)| *named = false);
+    }
+    match collected.files.is_empty() && !request.skip_others {
         true => Err(nothing_to_check(request.paths, &collected.problems)),
         false => Ok(collected),
     }
@@ -172,7 +177,7 @@ fn collect_outcomes(
                 results.checked.push(lesson.checked);
                 results.suppressed.append(lesson.suppressed);
             }
-            FileOutcome::OtherJson => {}
+            FileOutcome::Other => {}
             FileOutcome::Model { loads, findings, sources } => {
                 files.models.push((path.clone(), loads));
                 results.course_findings.extend(findings);
@@ -314,6 +319,7 @@ mod tests {
         for jobs in [1, 3] {
             let request = CheckRequest {
                 paths: &[folder.path().to_path_buf()],
+                skip_others: false,
                 stdin: None,
                 models: &ModelOptions { models: None, root: None },
                 level: CheckLevel::FULL,
