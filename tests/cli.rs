@@ -157,7 +157,11 @@ fn a_run_that_is_not_possible_states_the_reason() {
 fn help_and_version_are_no_errors() {
     assert_eq!(run(&["--help"]).code, 0);
     assert_eq!(run(&["run", "--help"]).code, 0);
-    assert_eq!(run(&["--version"]).stdout, format!("labspec {}\n", env!("CARGO_PKG_VERSION")));
+    let version = format!("labspec {}\n", env!("CARGO_PKG_VERSION"));
+    assert_eq!(run(&["-V"]).stdout, version);
+    let long = run(&["--version"]).stdout;
+    assert!(long.starts_with(&format!("{version}build: ")), "{long}");
+    assert!(long.ends_with("\nsemantics: MuJoCo 3.14.0\n"), "{long}");
     assert_eq!((run(&[]).code, run(&["chekc"]).code, run(&["run"]).code), (2, 2, 2));
 }
 

@@ -53,7 +53,7 @@ pub(crate) fn release(
 
 /// The version that the program reports: `labspec 0.1.0`.
 fn version(program: &Path) -> Result<String, String> {
-    let output = Command::new(program).arg("--version").output().map_err(|e| e.to_string())?;
+    let output = Command::new(program).arg("-V").output().map_err(|e| e.to_string())?;
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
     text.split_whitespace()
         .nth(1)

@@ -17,10 +17,25 @@ use labspec::threads;
 use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::sync::LazyLock;
+
+/// The version, the build, and whose semantics the engine has, for `--version`.
+static LONG_VERSION: LazyLock<String> = LazyLock::new(|| {
+    let vectors = match () {
+        () if cfg!(target_feature = "avx2") => "AVX2",
+        () if cfg!(target_feature = "sse2") => "SSE2",
+        () if cfg!(target_feature = "neon") => "NEON",
+        () => "no vector instructions",
+    };
+    let build = if cfg!(debug_assertions) { "with debug assertions" } else { "release" };
+    let (system, processor) = (std::env::consts::OS, std::env::consts::ARCH);
+    let version = env!("CARGO_PKG_VERSION");
+    format!("{version}\nbuild: {processor}, {system}, {vectors}, {build}\nsemantics: MuJoCo 3.14.0")
+});
 
 /// Checks that physics lessons tell the truth.
 #[derive(Parser, Debug)]
-#[command(name = "labspec", version, about, max_term_width = 100)]
+#[command(name = "labspec", version, long_version = LONG_VERSION.as_str(), about, max_term_width = 100)]
 struct Cli {
     #[command(subcommand)]
     command: Command,
