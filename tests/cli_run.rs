@@ -229,9 +229,9 @@ fn record_repeats_the_states_of_a_recording() {
         ["record", "models/ball_drop.xml", "--states", "states.json", "--steps", "300", "--every", "50"];
     let done = run_in(folder.path(), &[&arguments[..], &["--tight", "--option", "timestep=0.001"]].concat());
     assert_eq!((done.code, done.stderr.as_str()), (0, ""));
-    let ours: Value = serde_json::from_str(&done.stdout).unwrap();
+    let record: Value = serde_json::from_str(&done.stdout).unwrap();
     assert_eq!(
-        keys(&ours),
+        keys(&record),
         [
             "schemaVersion",
             "report",
@@ -244,17 +244,17 @@ fn record_repeats_the_states_of_a_recording() {
             "warnings"
         ]
     );
-    assert_eq!(ours["sizes"], json!({"nq": 14, "nv": 12}));
-    assert_eq!(ours["model"], json!({"body_mass": [0.0, 2.0, 0.1]}));
-    let counts: Vec<&Value> = ours["forward"].as_array().unwrap().iter().map(|f| &f["ncon"]).collect();
+    assert_eq!(record["sizes"], json!({"nq": 14, "nv": 12}));
+    assert_eq!(record["model"], json!({"body_mass": [0.0, 2.0, 0.1]}));
+    let counts: Vec<&Value> = record["forward"].as_array().unwrap().iter().map(|f| &f["ncon"]).collect();
     assert_eq!(counts, [&json!(0), &json!(1)]);
-    let contact = &ours["forward"][1]["contact"][0];
+    let contact = &record["forward"][1]["contact"][0];
     assert_eq!(
         keys(contact),
         ["geom1", "geom2", "dist", "pos", "frame", "friction", "dim", "solref", "solimp"]
     );
     assert!((contact["dist"].as_f64().unwrap() + 0.01).abs() < 1e-15);
-    let rows = ours["trajectory"].as_array().unwrap();
+    let rows = record["trajectory"].as_array().unwrap();
     assert_eq!(rows.len(), 7);
     assert!((rows[6]["time"].as_f64().unwrap() - 0.3).abs() < 1e-12);
     for (option, why) in

@@ -124,19 +124,19 @@ fn compare_with_recording(path: &Path, recording: &Value) -> Outcome {
             core::rne_post_constraint(&m, &mut d).unwrap();
             let at = format!("{} state {k}", case["case"].as_str().unwrap());
             // Our own models record other fields, all of which are compared.
-            let theirs = row["data"].get("ncon").map_or(d.ncon as f64, |v| numbers(v)[0]);
-            if d.ncon as f64 != theirs {
-                return Outcome::Contacts(format!("{at}: {} contacts, theirs {theirs}", d.ncon));
+            let recorded = row["data"].get("ncon").map_or(d.ncon as f64, |v| numbers(v)[0]);
+            if d.ncon as f64 != recorded {
+                return Outcome::Contacts(format!("{at}: {} contacts, theirs {recorded}", d.ncon));
             }
             for (name, values) in objects(&row["data"]) {
                 let field = named(Object::Data, name);
-                let (ours, theirs) = (list(&m, &d, field), numbers(values));
-                let mut scale = theirs.iter().fold(1.0, |s: f64, x| s.max(x.abs()));
+                let (computed, recorded) = (list(&m, &d, field), numbers(values));
+                let mut scale = recorded.iter().fold(1.0, |s: f64, x| s.max(x.abs()));
                 if name == "qfrc_constraint" {
                     // The rounding errors of the terms bound the accuracy of a sum.
                     scale = scale.max(rounding_of_forces(&d) / SOLVED);
                 }
-                let (index, difference) = worst(&ours, &theirs, scale);
+                let (index, difference) = worst(&computed, &recorded, scale);
                 let solved = SOLUTION.contains(&name.as_str());
                 let (most, limit) = if solved { (&mut solution, SOLVED) } else { (&mut rows, ROWS) };
                 *most = most.max(difference);
@@ -144,8 +144,8 @@ fn compare_with_recording(path: &Path, recording: &Value) -> Outcome {
                     let number = |list: &[f64]| list.get(index).copied().unwrap_or(f64::NAN);
                     found.push(format!(
                         "{at}, {name}[{index}]: ours {:?}, theirs {:?} ({difference:.1e})",
-                        number(&ours),
-                        number(&theirs)
+                        number(&computed),
+                        number(&recorded)
                     ));
                 }
             }

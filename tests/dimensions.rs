@@ -19,7 +19,7 @@ const CODES: [&str; 3] = ["label-unit", "mixed-dimensions", "label-names-another
 fn word(measure: &Measure) -> String {
     match measure {
         Measure::Anything => "a number of the text".into(),
-        Measure::Known(d) => written(d),
+        Measure::Dimension(d) => written(d),
         Measure::Unknown => "unknown".into(),
     }
 }
@@ -45,8 +45,8 @@ fn every_expression_has_a_dimension_or_is_unknown() {
         for (probe, measured) in programs.probes.iter().zip(&found.probes) {
             let measure = measured.as_ref().unwrap().value;
             match measure {
-                Measure::Known(d) if d.factor.is_nan() => loose += 1,
-                Measure::Known(_) => certain += 1,
+                Measure::Dimension(d) if d.factor.is_nan() => loose += 1,
+                Measure::Dimension(_) => certain += 1,
                 Measure::Anything => literal += 1,
                 Measure::Unknown => unknown += 1,
             }

@@ -67,12 +67,12 @@ impl Tally {
         self.lessons += other.lessons;
         self.wrong.extend(other.wrong);
         for (key, c) in other.counts {
-            let mine = self.counts.entry(key).or_default();
-            mine.made += c.made;
-            mine.verified += c.verified;
-            mine.computed += c.computed;
-            mine.refuted += c.refuted;
-            mine.open += c.open;
+            let count = self.counts.entry(key).or_default();
+            count.made += c.made;
+            count.verified += c.verified;
+            count.computed += c.computed;
+            count.refuted += c.refuted;
+            count.open += c.open;
         }
     }
 

@@ -163,10 +163,10 @@ fn sarif_follows_its_schema() {
     assert_eq!(ids.len(), rules.len());
     assert_eq!(run["columnKind"], "unicodeCodePoints");
     let results = run["results"].as_array().unwrap();
-    let ours_list = findings(folder.path());
-    assert_eq!(results.len(), ours_list.len());
+    let findings_of_labspec = findings(folder.path());
+    assert_eq!(results.len(), findings_of_labspec.len());
     let (mut marks, mut repaired) = (BTreeSet::new(), 0);
-    for (result, f) in results.iter().zip(&ours_list) {
+    for (result, f) in results.iter().zip(&findings_of_labspec) {
         assert_eq!((&result["ruleId"], &result["level"]), (&f["code"], &f["severity"]));
         let index = result["ruleIndex"].as_u64().unwrap() as usize;
         assert_eq!(rules[index]["id"], f["code"]);
@@ -176,14 +176,14 @@ fn sarif_follows_its_schema() {
         let path = f["file"].as_str().unwrap();
         assert_eq!(path_of(uri), path.strip_prefix("./").unwrap_or(path));
         let region = &place["region"];
-        for (theirs, ours) in [
+        for (sarif_key, key) in [
             ("startLine", "line"),
             ("startColumn", "column"),
             ("endLine", "endLine"),
             ("endColumn", "endColumn"),
         ] {
             // A file that cannot be read has no locations.
-            assert_eq!(region[theirs], f[ours], "{result}");
+            assert_eq!(region[sarif_key], f[key], "{result}");
         }
         // The replacement of a fix is the same as in our report.
         let Ok(text) = std::fs::read_to_string(folder.path().join(path)) else { continue };
@@ -194,11 +194,11 @@ fn sarif_follows_its_schema() {
             let gone = &replacement["deletedRegion"];
             let span = at(&text, &gone["startLine"], &gone["startColumn"])
                 ..at(&text, &gone["endLine"], &gone["endColumn"]);
-            let ours =
+            let span_of_fix =
                 f["fix"]["start"].as_u64().unwrap() as usize..f["fix"]["end"].as_u64().unwrap() as usize;
             assert_eq!(
                 (span, &replacement["insertedContent"]["text"]),
-                (ours, &f["fix"]["text"]),
+                (span_of_fix, &f["fix"]["text"]),
                 "{result}"
             );
             repaired += 1;
@@ -239,21 +239,21 @@ fn gitlab_can_read_its_report() {
     });
     let schemas = BTreeMap::from([("gitlab".to_string(), schema)]);
     assert_eq!(problems(&schemas, "gitlab", &report), [""; 0]);
-    let ours_list = findings(folder.path());
+    let findings_of_labspec = findings(folder.path());
     let all = report.as_array().unwrap();
-    assert_eq!(all.len(), ours_list.len());
+    assert_eq!(all.len(), findings_of_labspec.len());
     let marks: BTreeSet<String> = all.iter().map(|f| f["fingerprint"].to_string()).collect();
     assert_eq!(marks.len(), all.len(), "a fingerprint stands twice");
-    for (theirs, ours) in all.iter().zip(&ours_list) {
-        let path = theirs["location"]["path"].as_str().unwrap();
+    for (issue, finding) in all.iter().zip(&findings_of_labspec) {
+        let path = issue["location"]["path"].as_str().unwrap();
         // Relative to the repository, without a leading dot.
         assert!(!path.starts_with("./") && !path.starts_with('/'), "{path}");
-        assert_eq!(path, ours["file"].as_str().unwrap().trim_start_matches("./"));
-        assert_eq!((&theirs["check_name"], &theirs["description"]), (&ours["code"], &ours["message"]));
-        let lines = &theirs["location"]["lines"];
+        assert_eq!(path, finding["file"].as_str().unwrap().trim_start_matches("./"));
+        assert_eq!((&issue["check_name"], &issue["description"]), (&finding["code"], &finding["message"]));
+        let lines = &issue["location"]["lines"];
         let whole = json!({"line": 1, "endLine": 1});
-        let ours = if ours["line"].is_null() { &whole } else { ours };
-        assert_eq!((&lines["begin"], &lines["end"]), (&ours["line"], &ours["endLine"]));
+        let finding = if finding["line"].is_null() { &whole } else { finding };
+        assert_eq!((&lines["begin"], &lines["end"]), (&finding["line"], &finding["endLine"]));
     }
     // Fingerprints do not change when text moves.
     let lesson = folder.path().join("wrong.md");
@@ -351,15 +351,15 @@ fn junit_has_the_elements_that_jenkins_knows() {
 fn github_shows_every_finding_at_its_place() {
     let folder = course();
     let text = form(folder.path(), "github");
-    let ours_list = findings(folder.path());
+    let findings_of_labspec = findings(folder.path());
     let plain = |text: &str, more: bool| {
         let text = text.replace("%0A", "\n").replace("%0D", "\r");
         let text = if more { text.replace("%3A", ":").replace("%2C", ",") } else { text };
         text.replace("%25", "%")
     };
     // A line for each finding, and the summary.
-    assert_eq!(text.lines().count(), ours_list.len() + 1);
-    for (line, f) in text.lines().zip(&ours_list) {
+    assert_eq!(text.lines().count(), findings_of_labspec.len() + 1);
+    for (line, f) in text.lines().zip(&findings_of_labspec) {
         // `::name key=value,key=value::message`, as the runner parses it.
         let rest = line.strip_prefix("::").unwrap();
         let (head, words) = rest.split_once("::").unwrap();

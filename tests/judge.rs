@@ -48,13 +48,13 @@ fn asked(folder: &Path) -> (Value, Value) {
     let report: Value = serde_json::from_str(&done.stdout).unwrap();
     let value = |claim: &Value, run: &str| {
         let claims = report["lessons"][0]["claims"].as_array().unwrap();
-        let ours = &claims.iter().find(|c| c["name"] == *claim).unwrap()["measures"];
+        let measures = &claims.iter().find(|c| c["name"] == *claim).unwrap()["measures"];
         let name = match run.split_once('[') {
             Some((sweep, at)) => format!("{sweep}.height[{at}"),
             None => format!("{run}.height"),
         };
         // The measure of the only run has no prefix.
-        ours.get(name.as_str()).unwrap_or(&ours["height"])["value"].clone()
+        measures.get(name.as_str()).unwrap_or(&measures["height"])["value"].clone()
     };
     let request = read_json(&folder.join("request.json"));
     let run = |r: &Value| {

@@ -79,7 +79,7 @@ const OTHERWISE: [Reason; 7] = [
 ];
 
 /// Runs a lab as in a recording, or in a variant.
-fn ours(shared: &Path, recording: &Json, how: Reason) -> Json {
+fn run_lab(shared: &Path, recording: &Json, how: Reason) -> Json {
     let name = recording["lab"].as_str().unwrap();
     let folder = ModelFolder::open(&shared.join("corpus/models")).unwrap();
     let file = SourceFile::read(&shared.join(format!("corpus/labs/{name}.json"))).unwrap();
@@ -156,7 +156,7 @@ fn labs_have_the_traces_of_the_page() {
     let recordings = read_json(&path);
     let recordings = recordings.as_array().unwrap();
     for recording in recordings {
-        let found = ours(&shared, recording, Reason::Recorded);
+        let found = run_lab(&shared, recording, Reason::Recorded);
         let tight = if recording["tight"] == true { " tight" } else { "" };
         let what = format!("{} {} {}{tight}", recording["lab"], recording["set"], recording["press"]);
         if found["warnings"] != recording["warnings"] {
@@ -166,19 +166,19 @@ fn labs_have_the_traces_of_the_page() {
         assert_eq!(found["columns"].as_array().unwrap(), columns, "{what}");
         let mut others = None;
         for (i, name) in columns.iter().enumerate() {
-            let theirs = relative_difference(recording, i, &found, recording);
-            if theirs <= TRACE {
-                same = same.max(theirs);
+            let difference = relative_difference(recording, i, &found, recording);
+            if difference <= TRACE {
+                same = same.max(difference);
                 continue;
             }
-            let others = others.get_or_insert_with(|| OTHERWISE.map(|how| ours(&shared, recording, how)));
+            let others = others.get_or_insert_with(|| OTHERWISE.map(|how| run_lab(&shared, recording, how)));
             let [solved, perturbed @ ..] =
                 others.each_ref().map(|other| relative_difference(recording, i, &found, other));
             let perturbed = perturbed.into_iter().fold(0.0, f64::max);
             let line = format!(
-                "{what} {name}: {theirs:.1e} of its range from theirs; from itself {perturbed:.1e} nudged, {solved:.1e} solved"
+                "{what} {name}: {difference:.1e} of its range from theirs; from itself {perturbed:.1e} nudged, {solved:.1e} solved"
             );
-            if theirs <= WIDER * perturbed.max(solved) {
+            if difference <= WIDER * perturbed.max(solved) {
                 println!("{line}");
                 *excess
                     .entry((recording["lab"].as_str().unwrap(), name.as_str().unwrap()))

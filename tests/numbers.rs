@@ -199,10 +199,10 @@ fn the_mass_slider_in_mid_run() {
             assert_eq!(d.time, numbers(&row["time"])[0], "row {i}");
             assert_eq!(d.ncon as u64, row["ncon"].as_u64().unwrap(), "row {i}");
             // The tolerance for trajectories with contacts, see `parity`.
-            for (ours, theirs) in
+            for (computed, recorded) in
                 d.qpos.iter().chain(&d.qvel).zip(numbers(&row["qpos"]).iter().chain(&numbers(&row["qvel"])))
             {
-                assert!((ours - theirs).abs() <= 1e-10, "row {i}: {ours} {theirs}");
+                assert!((computed - recorded).abs() <= 1e-10, "row {i}: {computed} {recorded}");
             }
             if i == 1 {
                 // Back at the start with its previous speed, a side effect of mj_setConst.

@@ -93,9 +93,9 @@ fn load(case: &Value) -> Model {
 struct Report(String);
 
 impl Report {
-    fn compare(&mut self, what: std::fmt::Arguments<'_>, ours: &[f64], theirs: &[f64], tolerance: f64) {
-        let scale = theirs.iter().fold(1.0f64, |s, x| s.max(x.abs()));
-        let (_, difference) = worst(ours, theirs, scale);
+    fn compare(&mut self, what: std::fmt::Arguments<'_>, computed: &[f64], recorded: &[f64], tolerance: f64) {
+        let scale = recorded.iter().fold(1.0f64, |s, x| s.max(x.abs()));
+        let (_, difference) = worst(computed, recorded, scale);
         if difference > tolerance {
             let _ = writeln!(self.0, "{what}: {difference:.2e} > {tolerance:.0e}");
         }
@@ -135,9 +135,9 @@ fn models_compile_to_the_same_numbers() {
             }
         }
         if let (Some(i), Some(q)) = (compiled.get("body_inertia"), compiled.get("body_iquat")) {
-            let theirs = tensors(&numbers(i), &numbers(q));
-            let ours = tensors(&get("body_inertia"), &get("body_iquat"));
-            report.compare(format_args!("{name}: inertia"), &ours, &theirs, COMPILED);
+            let recorded = tensors(&numbers(i), &numbers(q));
+            let computed = tensors(&get("body_inertia"), &get("body_iquat"));
+            report.compare(format_args!("{name}: inertia"), &computed, &recorded, COMPILED);
         }
     }
     report.finish();
@@ -200,20 +200,29 @@ fn every_field_after_a_forward_pass_is_the_same() {
             }
             core::forward(&m, &mut d).unwrap();
             for (field, values) in state["data"].as_object().unwrap() {
-                let ours = list(&m, &d, reflect::field(Object::Data, field).unwrap());
-                report.compare(format_args!("{name}, state {k}: {field}"), &ours, &numbers(values), FORWARD);
+                let computed = list(&m, &d, reflect::field(Object::Data, field).unwrap());
+                report.compare(
+                    format_args!("{name}, state {k}: {field}"),
+                    &computed,
+                    &numbers(values),
+                    FORWARD,
+                );
             }
             let what = format_args!("{name}, state {k}: M");
             report.compare(what, &core::full_m(&m, &d).unwrap(), &numbers(&state["M"]), FORWARD);
             let rows = state["nefc"].as_f64().unwrap();
             report.compare(format_args!("{name}, state {k}: nefc"), &[d.nefc as f64], &[rows], 0.0);
-            let theirs: Vec<Vec<f64>> = state["contact"].as_array().unwrap().iter().map(numbers).collect();
-            let ours = sorted(&d.contact);
-            if ours.len() != theirs.len() {
-                let _ =
-                    writeln!(report.0, "{name}, state {k}: {} contacts, not {}", ours.len(), theirs.len());
+            let recorded: Vec<Vec<f64>> = state["contact"].as_array().unwrap().iter().map(numbers).collect();
+            let computed = sorted(&d.contact);
+            if computed.len() != recorded.len() {
+                let _ = writeln!(
+                    report.0,
+                    "{name}, state {k}: {} contacts, not {}",
+                    computed.len(),
+                    recorded.len()
+                );
             }
-            for (i, (a, b)) in ours.iter().zip(&theirs).enumerate() {
+            for (i, (a, b)) in computed.iter().zip(&recorded).enumerate() {
                 let mut at = 0;
                 for (what, n) in CONTACT {
                     let range = at..at + n;
@@ -270,8 +279,14 @@ fn trajectories_are_the_same() {
             if i < steps {
                 move_mocap(&m, &mut d, i);
                 core::step(&m, &mut d).unwrap();
-                let (ours, theirs) = ([d.ncon as f64, d.nefc as f64], [ncon[i] as f64, nefc[i] as f64]);
-                report.compare(format_args!("{name}, step {i}: ncon, nefc"), &ours, &theirs, 0.0);
+                let (computed, recorded_counts) =
+                    ([d.ncon as f64, d.nefc as f64], [ncon[i] as f64, nefc[i] as f64]);
+                report.compare(
+                    format_args!("{name}, step {i}: ncon, nefc"),
+                    &computed,
+                    &recorded_counts,
+                    0.0,
+                );
             }
             // Later differences follow from the first one.
             if report.0.len() > before {

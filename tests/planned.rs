@@ -185,11 +185,11 @@ fn compare(model: &Model, change: Option<Change>, announced: bool) -> (usize, Ve
             access.writes.insert(reflect::field(object, name).unwrap());
         }
         let mut planned = world(model, Plan::new(model, &access), change);
-        let Some(ours) = evaluate(&mut planned, &text, None) else { continue };
-        let theirs = evaluate(&mut full.clone(), &text, None).unwrap_or_default();
+        let Some(by_plan) = evaluate(&mut planned, &text, None) else { continue };
+        let by_full = evaluate(&mut full.clone(), &text, None).unwrap_or_default();
         count += 1;
-        if ours != theirs {
-            wrong.push(format!("{text}: planned {ours}, full {theirs}"));
+        if by_plan != by_full {
+            wrong.push(format!("{text}: planned {by_plan}, full {by_full}"));
         }
     }
     (count, wrong)

@@ -117,11 +117,11 @@ fn a_recording_refuses_samples_of_another_model() {
     let [of_model, of_twin] =
         [&model, &twin].map(|m| labspec::bind::Programs::compile(lab, m, &mut Vec::new()));
     let mut samples = run::Samples::new(&of_model, 4);
-    let mut theirs = run::Session::start(&of_twin, &twin, run::Start::default());
-    assert_eq!(theirs.ended(), None);
-    assert!(samples.take(&mut theirs).is_err());
-    let mut ours = run::Session::start(&of_model, &model, run::Start::default());
-    samples.take(&mut ours).unwrap();
+    let mut session_of_twin = run::Session::start(&of_twin, &twin, run::Start::default());
+    assert_eq!(session_of_twin.ended(), None);
+    assert!(samples.take(&mut session_of_twin).is_err());
+    let mut session = run::Session::start(&of_model, &model, run::Start::default());
+    samples.take(&mut session).unwrap();
     assert_eq!(samples.rows().len(), 1);
 }
 

@@ -117,12 +117,12 @@ fn measures_of_lessons_are_ten_times_more_accurate() {
                 .filter(move |r| r.setting.integrator.shared == shared && r.status == RunStatus::Good)
         };
         let mut compared = 0;
-        for theirs in good(true).filter(|r| r.setting.integrator.id == integrator::RK4) {
-            let ours = good(false).filter(|r| r.cost.work <= 1.1 * theirs.cost.work);
-            let best = ours.map(|r| r.errors[0].largest).fold(f64::INFINITY, f64::min);
-            if best.is_finite() && theirs.setting.timestep <= 2e-3 {
-                let error = theirs.errors[0].largest;
-                assert!(10.0 * best <= error, "{name}: {:?}: {best} for {error}", theirs.setting);
+        for runge_kutta in good(true).filter(|r| r.setting.integrator.id == integrator::RK4) {
+            let affordable = good(false).filter(|r| r.cost.work <= 1.1 * runge_kutta.cost.work);
+            let best = affordable.map(|r| r.errors[0].largest).fold(f64::INFINITY, f64::min);
+            if best.is_finite() && runge_kutta.setting.timestep <= 2e-3 {
+                let error = runge_kutta.errors[0].largest;
+                assert!(10.0 * best <= error, "{name}: {:?}: {best} for {error}", runge_kutta.setting);
                 compared += 1;
             }
         }

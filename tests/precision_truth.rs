@@ -114,16 +114,16 @@ fn events_and_ends_are_those_of_equations_by_hand() {
             times += 1;
         }
         // The reported error of the lab's own run at the end is its distance from the truth.
-        let mine = lab_row(report);
+        let lab_run = lab_row(report);
         for (label, end) in expected["end"].as_object().unwrap() {
             let i = report.targets.iter().position(|t| t.label == *label).unwrap();
-            if mine.status != RunStatus::Good {
+            if lab_run.status != RunStatus::Good {
                 continue;
             }
-            let setting = (mine.setting.integrator.id, mine.setting.timestep);
+            let setting = (lab_run.setting.integrator.id, lab_run.setting.timestep);
             let last = column(lab, setting, report.length, label).pop().unwrap();
             let off = (last - end.as_f64().unwrap()).abs();
-            let (estimated, doubt) = (mine.errors[i].end, report.targets[i].uncertain);
+            let (estimated, doubt) = (lab_run.errors[i].end, report.targets[i].uncertain);
             assert!(
                 (off - estimated).abs() <= doubt,
                 "{title}: {label}: {off:e} off, said {estimated:e} ± {doubt:e}"
@@ -308,7 +308,7 @@ fn nothing_is_compared_beyond_the_horizon_of_chaos() {
     assert!(until > 5.0 && until < 79.0, "{until}");
     assert!(report.events.iter().all(|e| e.time.is_nan() || e.time + e.uncertain <= until));
     for row in &report.rows {
-        assert!(row.errors[0].at.is_nan() || row.errors[0].at <= until);
+        assert!(row.errors[0].time.is_nan() || row.errors[0].time <= until);
         assert_eq!((row.errors[0].order, row.penetration.is_nan()), (None, true));
     }
 }

@@ -52,16 +52,16 @@ pub(crate) struct Difference {
     pub(crate) place: String,
     pub(crate) field: String,
     pub(crate) index: usize,
-    pub(crate) ours: f64,
-    pub(crate) theirs: f64,
+    pub(crate) computed: f64,
+    pub(crate) recorded: f64,
     pub(crate) scaled: f64,
 }
 
 impl fmt::Display for Difference {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Difference { place, field, index, ours, theirs, scaled } = self;
+        let Difference { place, field, index, computed, recorded, scaled } = self;
         let comma = if place.is_empty() { "" } else { ", " };
-        write!(f, "{place}{comma}{field}[{index}]: ours {ours:?}, theirs {theirs:?} ({scaled:.1e})")
+        write!(f, "{place}{comma}{field}[{index}]: ours {computed:?}, theirs {recorded:?} ({scaled:.1e})")
     }
 }
 
@@ -139,26 +139,32 @@ fn compiled(m: &Model, recording: &Value) -> Verdict {
     for (part, object, tolerance) in parts {
         for (field, values) in objects(&recording[part]) {
             let id = named(object, field);
-            let (ours, theirs) = (list(m, &d, id), numbers(values));
-            let [ours, theirs] = [ours, theirs].map(|list| without_order(field, list));
-            let scale = largest(&theirs).max(COMPILED_ZERO / tolerance);
-            worst = worst.max(note(&mut found, "", field, &ours, &theirs, scale, tolerance));
+            let (computed, recorded_values) = (list(m, &d, id), numbers(values));
+            let [computed, recorded_values] =
+                [computed, recorded_values].map(|list| without_order(field, list));
+            let scale = largest(&recorded_values).max(COMPILED_ZERO / tolerance);
+            worst = worst.max(note(&mut found, "", field, &computed, &recorded_values, scale, tolerance));
         }
     }
-    for (kind, theirs) in recording["names"].as_object().into_iter().flatten() {
-        let theirs: Vec<&str> = theirs.as_array().into_iter().flatten().filter_map(Value::as_str).collect();
-        let ours = obj(kind).map_or(&[][..], |o| m.names.of_kind(o));
-        if let Some(index) = (0..ours.len().max(theirs.len()))
-            .find(|&i| ours.get(i).map(String::as_str) != theirs.get(i).copied())
+    for (kind, recorded_values) in recording["names"].as_object().into_iter().flatten() {
+        let recorded_values: Vec<&str> =
+            recorded_values.as_array().into_iter().flatten().filter_map(Value::as_str).collect();
+        let computed = obj(kind).map_or(&[][..], |o| m.names.of_kind(o));
+        if let Some(index) = (0..computed.len().max(recorded_values.len()))
+            .find(|&i| computed.get(i).map(String::as_str) != recorded_values.get(i).copied())
         {
-            let field = format!("names of {kind} ({:?}, theirs {:?})", ours.get(index), theirs.get(index));
+            let field = format!(
+                "names of {kind} ({:?}, theirs {:?})",
+                computed.get(index),
+                recorded_values.get(index)
+            );
             let number = f64::NAN;
             found.push(Difference {
                 place: String::new(),
                 field,
                 index,
-                ours: number,
-                theirs: number,
+                computed: number,
+                recorded: number,
                 scaled: number,
             });
         }
@@ -226,10 +232,11 @@ fn forward(m: &Model, states: &Value) -> Verdict {
         set(m, &mut d, &row["state"]);
         core::forward(m, &mut d).unwrap();
         let place = format!("state {k}");
-        let mut hold = |field: &str, ours: &[f64], theirs: &[f64]| {
-            let scale = largest(theirs).max(1.0);
+        let mut hold = |field: &str, computed: &[f64], recorded_values: &[f64]| {
+            let scale = largest(recorded_values).max(1.0);
             let spread = row["spread"][field].as_str().and_then(|s| s.parse().ok()).unwrap_or(0.0);
-            let difference = note(&mut found, &place, field, ours, theirs, scale, f64::max(FORWARD, spread));
+            let difference =
+                note(&mut found, &place, field, computed, recorded_values, scale, f64::max(FORWARD, spread));
             if difference > FORWARD && difference <= spread {
                 sensitive = sensitive.filter(|s| s.0 > difference).or(Some((difference, spread)));
             } else {
@@ -240,13 +247,13 @@ fn forward(m: &Model, states: &Value) -> Verdict {
             let id = named(Object::Data, field);
             hold(field, &list(m, &d, id), &numbers(values));
         }
-        let theirs = MOMENTS.map(|name| row["data"].get(name).map(numbers).unwrap_or_default());
-        if theirs.iter().any(|list| !list.is_empty()) {
-            let ours = MOMENTS.map(|name| list(m, &d, named(Object::Data, name)));
-            hold("actuator_moment", &dense(&ours, m.nv), &dense(&theirs, m.nv));
+        let recorded_values = MOMENTS.map(|name| row["data"].get(name).map(numbers).unwrap_or_default());
+        if recorded_values.iter().any(|list| !list.is_empty()) {
+            let computed = MOMENTS.map(|name| list(m, &d, named(Object::Data, name)));
+            hold("actuator_moment", &dense(&computed, m.nv), &dense(&recorded_values, m.nv));
         }
-        for (field, ours, theirs) in on_request(m, &mut d, row) {
-            hold(&field, &ours, &theirs);
+        for (field, computed, recorded_values) in on_request(m, &mut d, row) {
+            hold(&field, &computed, &recorded_values);
         }
     }
     // Only the first state in which a field differs is reported.
@@ -270,10 +277,10 @@ fn on_request(m: &Model, d: &mut Data, row: &Value) -> Vec<(String, Vec<f64>, Ve
         let id = named(Object::Data, name);
         out.push((name.clone(), list(m, d, id), numbers(values)));
     }
-    if let Some(theirs) = recorded(post, "qfrc_inverse") {
+    if let Some(recorded_inverse) = recorded(post, "qfrc_inverse") {
         d.set_qacc(&vector).unwrap();
         core::inverse(m, d).unwrap();
-        out.push(("qfrc_inverse".into(), d.qfrc_inverse.clone(), theirs));
+        out.push(("qfrc_inverse".into(), d.qfrc_inverse.clone(), recorded_inverse));
     }
     for (name, values) in objects(&row["functions"]) {
         out.push((format!("{name}()"), function(m, d, name, &vector), numbers(values)));
@@ -367,9 +374,17 @@ pub(crate) fn trajectory(m: &Model, start: &Value, recording: &Value, tolerance:
         let mut difference: f64 = 0.0;
         for (field, values) in objects(row) {
             let id = named(Object::Data, field);
-            let (ours, theirs) = (list(m, &d, id), numbers(values));
-            let scale = largest(&theirs).max(1.0);
-            difference = difference.max(note(&mut found, &place, field, &ours, &theirs, scale, tolerance));
+            let (computed, recorded_values) = (list(m, &d, id), numbers(values));
+            let scale = largest(&recorded_values).max(1.0);
+            difference = difference.max(note(
+                &mut found,
+                &place,
+                field,
+                &computed,
+                &recorded_values,
+                scale,
+                tolerance,
+            ));
         }
         if !found.is_empty() {
             // Later differences follow from the first one.
@@ -393,8 +408,8 @@ fn warnings(d: &Data, recording: &Value) -> Vec<Difference> {
     };
     let mut found = Vec::new();
     for (w, stat) in Warning::ALL.into_iter().zip(&d.warning) {
-        let (ours, theirs) = ([stat.number as f64], [count(w)]);
-        note(&mut found, "the end", &format!("warning {}", w.name()), &ours, &theirs, 1.0, 0.0);
+        let (computed, recorded_values) = ([stat.number as f64], [count(w)]);
+        note(&mut found, "the end", &format!("warning {}", w.name()), &computed, &recorded_values, 1.0, 0.0);
     }
     found
 }
@@ -444,12 +459,12 @@ fn largest(list: &[f64]) -> f64 {
 
 /// The index of the largest difference, and that difference divided by `scale`; infinite if the lengths
 /// differ or a number is NaN.
-pub(crate) fn worst(ours: &[f64], theirs: &[f64], scale: f64) -> (usize, f64) {
-    if ours.len() != theirs.len() {
-        return (ours.len().min(theirs.len()), f64::INFINITY);
+pub(crate) fn worst(computed: &[f64], recorded: &[f64], scale: f64) -> (usize, f64) {
+    if computed.len() != recorded.len() {
+        return (computed.len().min(recorded.len()), f64::INFINITY);
     }
     let mut at = (0, 0.0);
-    for (i, (a, b)) in ours.iter().zip(theirs).enumerate() {
+    for (i, (a, b)) in computed.iter().zip(recorded).enumerate() {
         let scaled = ((a - b) / scale).abs();
         let scaled = if scaled.is_nan() && !(a.is_nan() && b.is_nan()) { f64::INFINITY } else { scaled };
         if scaled > at.1 {
@@ -464,16 +479,23 @@ fn note(
     found: &mut Vec<Difference>,
     place: &str,
     field: &str,
-    ours: &[f64],
-    theirs: &[f64],
+    computed: &[f64],
+    recorded_values: &[f64],
     scale: f64,
     tolerance: f64,
 ) -> f64 {
-    let (index, scaled) = worst(ours, theirs, scale);
+    let (index, scaled) = worst(computed, recorded_values, scale);
     if scaled > tolerance {
         let number = |list: &[f64]| list.get(index).copied().unwrap_or(f64::NAN);
         let (place, field) = (place.to_string(), field.to_string());
-        found.push(Difference { place, field, index, ours: number(ours), theirs: number(theirs), scaled });
+        found.push(Difference {
+            place,
+            field,
+            index,
+            computed: number(computed),
+            recorded: number(recorded_values),
+            scaled,
+        });
     }
     scaled
 }

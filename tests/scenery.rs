@@ -70,13 +70,13 @@ fn follow(m: &mut Model, run: &Value) -> Vec<String> {
             step += 1;
         }
         for (field, values) in objects(row) {
-            let (ours, theirs) = (list(m, &d, named(Object::Data, field)), numbers(values));
-            let scale = theirs.iter().fold(1.0, |s: f64, x| s.max(x.abs()));
-            let (index, difference) = worst(&ours, &theirs, scale);
+            let (computed, recorded) = (list(m, &d, named(Object::Data, field)), numbers(values));
+            let scale = recorded.iter().fold(1.0, |s: f64, x| s.max(x.abs()));
+            let (index, difference) = worst(&computed, &recorded, scale);
             if difference > if field == "qfrc_constraint" { FORCE } else { RUN } {
                 wrong.push(format!(
                     "step {step}, {field}[{index}]: ours {}, theirs {} ({difference:.1e})",
-                    ours[index], theirs[index]
+                    computed[index], recorded[index]
                 ));
             }
         }

@@ -41,15 +41,15 @@ fn differences(scene: &str, tolerance: f64) {
                 next += 1;
             }
             for (field, values) in objects(row).filter(|(field, _)| *field != "step") {
-                let ours = list(&m, &d, reflect::field(Object::Data, field).unwrap());
-                let theirs = numbers(values);
-                let scale = theirs.iter().fold(1.0, |s: f64, x| s.max(x.abs()));
-                let (i, difference) = worst(&ours, &theirs, scale);
+                let computed = list(&m, &d, reflect::field(Object::Data, field).unwrap());
+                let recorded_values = numbers(values);
+                let scale = recorded_values.iter().fold(1.0, |s: f64, x| s.max(x.abs()));
+                let (i, difference) = worst(&computed, &recorded_values, scale);
                 if difference > tolerance {
                     wrong.push(format!(
                         "{name}, step {step}: {field}[{i}]: ours {:?}, theirs {:?}",
-                        ours.get(i),
-                        theirs.get(i)
+                        computed.get(i),
+                        recorded_values.get(i)
                     ));
                 }
             }

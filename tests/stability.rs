@@ -193,14 +193,14 @@ impl Classes {
             };
             of[side] += 1;
         }
-        let Some(ours) = outcomes[1] else { return };
-        let reported = ours["told"].is_object();
-        if fine(ours, bound) {
+        let Some(labspec_outcome) = outcomes[1] else { return };
+        let reported = labspec_outcome["told"].is_object();
+        if fine(labspec_outcome, bound) {
             c.called += usize::from(reported);
-            self.alarms.extend(reported.then(|| format!("{class}, {name}: {ours}")));
-        } else if !ours["warning"].is_string() {
+            self.alarms.extend(reported.then(|| format!("{class}, {name}: {labspec_outcome}")));
+        } else if !labspec_outcome["warning"].is_string() {
             c.reported += usize::from(reported);
-            self.undetected.extend((!reported).then(|| format!("{class}, {name}: {ours}")));
+            self.undetected.extend((!reported).then(|| format!("{class}, {name}: {labspec_outcome}")));
         }
     }
 
@@ -228,8 +228,8 @@ impl Classes {
         for c in self.list.iter().chain([&self.sum()]) {
             let searched = c.name.starts_with("Longest");
             let of = |pair: [usize; 2]| {
-                let theirs = if searched { "–".into() } else { pair[0].to_string() };
-                format!("{theirs} | {}", pair[1])
+                let library = if searched { "–".into() } else { pair[0].to_string() };
+                format!("{library} | {}", pair[1])
             };
             let reported =
                 if c.silent[1] == 0 { String::new() } else { format!("{} of {}", c.reported, c.silent[1]) };
@@ -260,7 +260,7 @@ fn reported(outcome: &Json, bound: f64) -> String {
 /// Cases side by side; adds those that are fine in the library and not here to `wrong`.
 fn table(
     cases: &[Json],
-    ours: impl Fn(&Json) -> Json,
+    run: impl Fn(&Json) -> Json,
     wrong: &mut Vec<String>,
     classes: &mut Classes,
 ) -> String {
@@ -274,20 +274,20 @@ fn table(
                 "\n### {section}\n\n| case | MuJoCo | labspec | apart | reported |\n|---|---|---|---:|---|"
             );
         }
-        let (bound, theirs, ours) = (case["bound"].as_f64().unwrap(), &case["theirs"], ours(case));
+        let (bound, library, labspec_outcome) = (case["bound"].as_f64().unwrap(), &case["theirs"], run(case));
         let title = case["case"].as_str().unwrap();
-        classes.count(section, title, [Some(theirs), Some(&ours)], bound);
-        if fine(theirs, bound) && !fine(&ours, bound) {
-            wrong.push(format!("{section}, {title}: {ours}, theirs {theirs}"));
+        classes.count(section, title, [Some(library), Some(&labspec_outcome)], bound);
+        if fine(library, bound) && !fine(&labspec_outcome, bound) {
+            wrong.push(format!("{section}, {title}: {labspec_outcome}, theirs {library}"));
         }
         let describe = |o: &Json| describe_outcome(o, bound);
         let _ = writeln!(
             text,
             "| {title} | {} | {} | {} | {} |",
-            describe(theirs),
-            describe(&ours),
-            largest_difference(theirs, &ours),
-            reported(&ours, bound)
+            describe(library),
+            describe(&labspec_outcome),
+            largest_difference(library, &labspec_outcome),
+            reported(&labspec_outcome, bound)
         );
     }
     text
@@ -331,13 +331,16 @@ fn searched(searches: &[Json], timesteps: &[f64], differ: &mut Vec<String>, clas
             let _ = writeln!(text, "\n### {section}\n\n| | {} |\n|---|{lines}", COLUMNS.join(" | "));
         }
         let cells = row.iter().map(|search| {
-            let (theirs, ours) = (search["theirs"].as_f64(), longest(search, timesteps, classes));
+            let (library, labspec_value) = (search["theirs"].as_f64(), longest(search, timesteps, classes));
             let word = |h: Option<f64>| h.map_or("none".into(), |h| format!("{} ms", short(1e3 * h)));
-            if theirs == ours {
-                return word(ours);
+            if library == labspec_value {
+                return word(labspec_value);
             }
-            differ.push(format!("{of}, {name}, {}: theirs {theirs:?}, ours {ours:?}", search["column"]));
-            format!("**{} / {}**", word(theirs), word(ours))
+            differ.push(format!(
+                "{of}, {name}, {}: theirs {library:?}, ours {labspec_value:?}",
+                search["column"]
+            ));
+            format!("**{} / {}**", word(library), word(labspec_value))
         });
         let _ = writeln!(text, "| {name} | {} |", cells.collect::<Vec<_>>().join(" | "));
     }
@@ -423,17 +426,18 @@ fn stiff_and_extreme_scenes() {
     );
     for case in &long {
         let name = case["case"].as_str().unwrap();
-        let (theirs, ours, bound) = (&case["theirs"], &runs[name], case["bound"].as_f64().unwrap());
+        let (library, labspec_outcome, bound) =
+            (&case["theirs"], &runs[name], case["bound"].as_f64().unwrap());
         let number = |o: &Json, key: &str| o[key].as_f64().map_or("–".into(), |x| format!("{x:.1e}"));
         let _ = writeln!(
             text,
             "| {name} | {} | {} | {} | {} | {} | {} |",
-            describe_outcome(theirs, bound),
-            describe_outcome(ours, bound),
-            number(theirs, "energy"),
-            number(ours, "energy"),
-            number(theirs, "norm"),
-            number(ours, "norm")
+            describe_outcome(library, bound),
+            describe_outcome(labspec_outcome, bound),
+            number(library, "energy"),
+            number(labspec_outcome, "energy"),
+            number(library, "norm"),
+            number(labspec_outcome, "norm")
         );
     }
     let (section, rates, mistakes) = crate::fresh::section();

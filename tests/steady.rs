@@ -106,17 +106,17 @@ proptest! {
         let (programs, model) = programs(CONTROLLERS[which].0);
         let mut without = programs.clone();
         let controller = without.controller.take().unwrap();
-        let mut ours = Session::start(&programs, &model, Start::default());
+        let mut skipping = Session::start(&programs, &model, Start::default());
         let mut always = Session::start(&without, &model, Start::default());
         for step in 0..40 {
             for (_, event) in events.iter().filter(|(when, _)| *when == step) {
-                apply(event, &mut ours);
+                apply(event, &mut skipping);
                 apply(event, &mut always);
             }
             controller.program.run(&mut always.world, &mut always.context, None).unwrap();
             always.step();
-            ours.step();
-            prop_assert_eq!(bits(&ours), bits(&always), "{} after step {}", CONTROLLERS[which].0, step);
+            skipping.step();
+            prop_assert_eq!(bits(&skipping), bits(&always), "{} after step {}", CONTROLLERS[which].0, step);
         }
     }
 }

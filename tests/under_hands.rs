@@ -22,7 +22,7 @@ const CHATTERS: f64 = 0.5;
 const STEP: usize = 4;
 
 /// Our report of a lab.
-fn ours(lab: &str) -> Json {
+fn labspec_report(lab: &str) -> Json {
     let target = match lab.split_once('#') {
         Some(("labs.md", _)) => format!("tests/stability/{lab}"),
         Some(("twenty.md", number)) => format!("tests/twenty/labs.md#{number}"),
@@ -42,7 +42,7 @@ fn ours(lab: &str) -> Json {
 
 /// The reports of all labs in their order; two are computed at a time.
 fn reports(labs: &[&str]) -> Vec<Json> {
-    let half = |k: usize| labs.iter().skip(k).step_by(2).map(|lab| ours(lab)).collect::<Vec<_>>();
+    let half = |k: usize| labs.iter().skip(k).step_by(2).map(|lab| labspec_report(lab)).collect::<Vec<_>>();
     let (even, odd) = std::thread::scope(|scope| {
         let odd = scope.spawn(|| half(1));
         (half(0), odd.join().unwrap())
@@ -80,8 +80,8 @@ struct Count {
 }
 
 /// Compares our runs with the library's; differences are added to `list`.
-fn runs(lab: &str, theirs: &Json, ours: &Json, list: &mut Vec<String>) -> Count {
-    let [there, here] = [theirs, ours].map(|x| x["runs"].as_array().unwrap());
+fn runs(lab: &str, recorded: &Json, computed: &Json, list: &mut Vec<String>) -> Count {
+    let [there, here] = [recorded, computed].map(|x| x["runs"].as_array().unwrap());
     assert_eq!(
         there.len(),
         here.len(),
@@ -124,8 +124,8 @@ fn short(x: Option<f64>) -> String {
 }
 
 /// Margins side by side; those that differ are added to `far`.
-fn margins(lab: &str, theirs: &Json, ours: &Json, far: &mut Vec<String>) -> (String, [usize; 2]) {
-    let [there, here] = [theirs, ours].map(|x| x["margins"].as_array().unwrap());
+fn margins(lab: &str, recorded: &Json, computed: &Json, far: &mut Vec<String>) -> (String, [usize; 2]) {
+    let [there, here] = [recorded, computed].map(|x| x["margins"].as_array().unwrap());
     assert_eq!(
         there.len(),
         here.len(),
@@ -200,15 +200,15 @@ fn warnings_and_margins_agree_with_the_library() {
             c.runs, c.warned, c.heard, c.wrong[0], c.wrong[1], c.alarms
         );
     };
-    for ((lab, theirs), ours) in names.iter().zip(&labs).zip(reports(&names)) {
-        let c = runs(lab, theirs, &ours, &mut differ);
+    for ((lab, library_report), computed) in names.iter().zip(&labs).zip(reports(&names)) {
+        let c = runs(lab, library_report, &computed, &mut differ);
         row(lab, &c);
         sum.runs += c.runs;
         sum.warned += c.warned;
         sum.heard += c.heard;
         sum.alarms += c.alarms;
         sum.wrong = [sum.wrong[0] + c.wrong[0], sum.wrong[1] + c.wrong[1]];
-        let (text, number) = margins(lab, theirs, &ours, &mut far);
+        let (text, number) = margins(lab, library_report, &computed, &mut far);
         largest.push_str(&text);
         many = [many[0] + number[0], many[1] + number[1]];
     }

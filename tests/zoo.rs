@@ -110,8 +110,8 @@ fn the_fields_that_we_lack() {
         ];
         for (part, object, fields) in parts {
             let names = objects(fields).map(|(name, _)| name);
-            let ours = |name: &&String| reflect::field(object, name).is_none();
-            lacking.extend(names.filter(ours).map(|name| format!("{part}.{name}")));
+            let is_missing = |name: &&String| reflect::field(object, name).is_none();
+            lacking.extend(names.filter(is_missing).map(|name| format!("{part}.{name}")));
         }
     }
     assert_eq!(lacking.iter().map(String::as_str).collect::<Vec<_>>(), LACKING);

@@ -228,7 +228,7 @@ fn measures_another(case: &Case<'_>) -> bool {
     let has_unit = !parted(one["label"].as_str().unwrap_or("")).1.is_empty() || !parted(axis).1.is_empty();
     let of = |json| measures(json, case.models).and_then(|all| all.get(i).copied());
     let differ = match (of(&case.piece.json), of(case.json)) {
-        (Some(Measure::Known(a)), Some(Measure::Known(b))) => !a.agrees(&b),
+        (Some(Measure::Dimension(a)), Some(Measure::Dimension(b))) => !a.agrees(&b),
         // An expression with an invalid index has no measure.
         (Some(_), None) => true,
         _ => false,
@@ -377,5 +377,5 @@ fn known_measure(case: &Case<'_>) -> bool {
     let (old, new) = (displayed(&case.piece.json), displayed(case.json));
     let at = old.iter().zip(&new).position(|(a, b)| a != b);
     let all = measures(case.json, case.models).unwrap_or_default();
-    at.is_some_and(|i| matches!(all.get(i), Some(Measure::Known(d)) if d.is_exact()))
+    at.is_some_and(|i| matches!(all.get(i), Some(Measure::Dimension(d)) if d.is_exact()))
 }

@@ -130,10 +130,10 @@ fn files(folder: &Path) -> Vec<PathBuf> {
         let name = p.file_name().unwrap().to_str().unwrap();
         name.ends_with(".json") || name.ends_with(".md") && !name.contains("damaged") && name != "NUMBERS.md"
     };
-    let ours = folder.ends_with("specs/lessons");
+    let is_specs = folder.ends_with("specs/lessons");
     let mut all: Vec<PathBuf> = entries.filter(is_one).collect();
     all.sort();
-    if ours {
+    if is_specs {
         all.truncate(OURS);
     }
     all

@@ -154,7 +154,9 @@ impl FindingReport {
             outcome: match outcome {
                 ledger::Outcome::Clean => CheckOutcome::LabspecOutcomeClean,
                 // Without a baseline, nothing is known from one.
-                ledger::Outcome::Findings | ledger::Outcome::Known => CheckOutcome::LabspecOutcomeFindings,
+                ledger::Outcome::Findings | ledger::Outcome::Baselined => {
+                    CheckOutcome::LabspecOutcomeFindings
+                }
                 ledger::Outcome::Partial => CheckOutcome::LabspecOutcomePartial,
                 ledger::Outcome::Nothing => CheckOutcome::LabspecOutcomeNothing,
             },

@@ -113,7 +113,7 @@ impl Assistant {
             return Err(call_error("too-large", &format!("a text can have at most {most} MB")));
         }
         let mut found = match self.open.iter().position(|(name, _)| name == path) {
-            Some(at) => self.open.remove(at),
+            Some(index) => self.open.remove(index),
             None => (path.to_string(), Document::new(PathBuf::from(path), text)),
         };
         if found.1.file.text() != text {

@@ -248,12 +248,12 @@ impl RawData {
         point: &[f64],
     ) -> Result<Vec<f64>, JsValue> {
         let (m, d) = (&model.model, self.data());
-        let at = || match *point {
+        let position = || match *point {
             [x, y, z] => Ok([x, y, z]),
             _ => Err(Error::Length { what: "the point", expected: 3, found: point.len() }),
         };
         let found = match of {
-            "point" => at().and_then(|point| core::jac(m, d, point, id)),
+            "point" => position().and_then(|point| core::jac(m, d, point, id)),
             "body" => core::jac_body(m, d, id),
             "bodyCom" => core::jac_body_com(m, d, id),
             "geom" => core::jac_geom(m, d, id),
@@ -410,7 +410,7 @@ pub(crate) fn contacts<S: Scope>(model: &Model, data: &Data<S>) -> Result<Vec<f6
         out.extend(c.solref);
         out.extend(c.solreffriction);
         out.extend(c.solimp);
-        out.extend([c.mu, f64::from(c.exclude), c.efc_address.map_or(-1.0, |at| at as f64), 0.0]);
+        out.extend([c.mu, f64::from(c.exclude), c.efc_address.map_or(-1.0, |address| address as f64), 0.0]);
     }
     Ok(out)
 }

@@ -29,13 +29,13 @@ impl RawExpression {
         let names = ModelNames::new(&model.model, Scope::Lab);
         let mut globals = Globals::new();
         let (mut programs, mut mistakes) = (Vec::new(), Vec::new());
-        for (at, text) in texts.iter().enumerate() {
+        for (index, text) in texts.iter().enumerate() {
             let mut compiler = Compiler::new(&names, &mut globals);
             let compiled = if statements { compiler.statements(text) } else { compiler.expression(text) };
             match compiled.program {
                 Some(program) => programs.push(program),
                 None => {
-                    let path = path_of(at);
+                    let path = path_of(index);
                     let errors = compiled.diagnostics.into_iter().filter(Finding::is_error);
                     mistakes.extend(errors.map(|f| Finding { path: Arc::clone(&path), ..f }));
                 }
@@ -48,15 +48,20 @@ impl RawExpression {
     }
 
     /// The value of an expression as a number; NaN if it is not a number.
-    pub fn number(&mut self, model: &mut RawModel, data: &mut RawData, at: usize) -> Result<f64, JsValue> {
+    pub fn number(&mut self, model: &mut RawModel, data: &mut RawData, index: usize) -> Result<f64, JsValue> {
         model.sync();
-        Ok(self.run(model, data, at)?.to_number())
+        Ok(self.run(model, data, index)?.to_number())
     }
 
     /// The value of an expression.
-    pub fn value(&mut self, model: &mut RawModel, data: &mut RawData, at: usize) -> Result<JsValue, JsValue> {
+    pub fn value(
+        &mut self,
+        model: &mut RawModel,
+        data: &mut RawData,
+        index: usize,
+    ) -> Result<JsValue, JsValue> {
         model.sync();
-        match self.run(model, data, at)? {
+        match self.run(model, data, index)? {
             // JSON cannot represent all numbers.
             Value::Number(x) => Ok(JsValue::from_f64(x)),
             other => crate::object(&value(&other)),
@@ -81,17 +86,19 @@ impl RawExpression {
             if row > 0 {
                 data.step_once(model)?;
             }
-            for at in 0..self.programs.len() {
-                out[at * rows + row] = self.run(model, data, at)?.to_number();
+            for index in 0..self.programs.len() {
+                out[index * rows + row] = self.run(model, data, index)?.to_number();
             }
         }
         Ok(out)
     }
 
-    fn run(&mut self, model: &mut RawModel, data: &mut RawData, at: usize) -> Result<Value, JsValue> {
+    fn run(&mut self, model: &mut RawModel, data: &mut RawData, index: usize) -> Result<Value, JsValue> {
         let context = &mut self.context;
-        let program =
-            self.programs.get(at).ok_or_else(|| call_error("unknown-id", "there is no such expression"))?;
+        let program = self
+            .programs
+            .get(index)
+            .ok_or_else(|| call_error("unknown-id", "there is no such expression"))?;
         let result = data.with_world(model, |world| {
             labspec_core::limit(&mut world.data, WORK);
             context.allow(WORK);
@@ -101,7 +108,7 @@ impl RawExpression {
         });
         let failed = |rule, span: labspec_expr::Span, message: String| {
             let finding = Finding::error(rule, span.start..span.end, message);
-            thrown(&Error::Findings(vec![Finding { path: path_of(at), ..finding }]))
+            thrown(&Error::Findings(vec![Finding { path: path_of(index), ..finding }]))
         };
         let found = result.map_err(|e| failed(e.rule, e.span, e.message))?;
         match context.events().iter().find_map(|e| Some((e.rule()?, *e))) {
@@ -112,6 +119,6 @@ impl RawExpression {
 }
 
 /// The name of a source text in findings.
-fn path_of(at: usize) -> Arc<str> {
-    Arc::from(if at == 0 { "expression".to_string() } else { format!("expression {}", at + 1) })
+fn path_of(index: usize) -> Arc<str> {
+    Arc::from(if index == 0 { "expression".to_string() } else { format!("expression {}", index + 1) })
 }

@@ -264,17 +264,17 @@ impl Lab {
     ) -> Result<usize, JsValue> {
         let mut before: Vec<bool> = Vec::with_capacity(levels.len() / 2);
         let over = |numbers: &dyn Fn(usize) -> f64, pair: &[f64]| match pair {
-            [at, level] => numbers(*at as usize) > *level,
+            [index, level] => numbers(*index as usize) > *level,
             _ => false,
         };
         let current = self.player.numbers();
         before.extend(
-            levels.chunks(2).map(|pair| over(&|at| current.get(at).copied().unwrap_or(f64::NAN), pair)),
+            levels.chunks(2).map(|pair| over(&|index| current.get(index).copied().unwrap_or(f64::NAN), pair)),
         );
         let watched = &mut self.watched;
         watched.start(self.player.data().fields());
         let done = self.player.play_while(time, most, |data, cells| {
-            let number = |at: usize| cells.get(at).map_or(f64::NAN, labspec::run::Cell::number);
+            let number = |index: usize| cells.get(index).map_or(f64::NAN, labspec::run::Cell::number);
             let crossed = levels.chunks(2).zip(&before).any(|(pair, was)| over(&number, pair) != *was);
             let moved = contacts && watched.touches_otherwise(data.fields());
             let warned = warnings && watched.warns(data.fields());

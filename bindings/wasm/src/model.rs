@@ -38,14 +38,14 @@ impl RawModel {
         if self.exposed.is_empty() {
             return;
         }
-        for at in 0..self.exposed.len() {
-            let (field, held) = &self.exposed[at];
+        for index in 0..self.exposed.len() {
+            let (field, held) = &self.exposed[index];
             let Some(view) = self.model.field(*field) else { continue };
             if same(view, held) {
                 continue;
             }
             let (field, held) = (*field, snapshot(view));
-            self.exposed[at].1 = held;
+            self.exposed[index].1 = held;
             // The field is written through the table to update its stamp.
             write(&mut self.model, &mut self.nobody, field, |_| ());
         }

@@ -65,7 +65,7 @@ fn check_blocks(lesson: &Lesson, blocks: &mut BTreeMap<String, Vec<Finding>>, mo
         let key = format!("{models_now}\0{}", block_key(lesson, &unit));
         let cached = blocks.get(&key).or_else(|| next_blocks.get(&key)).cloned();
         let found = cached.unwrap_or_else(|| check_block(lesson, &unit, models));
-        findings.extend(found.iter().map(|f| moved(f, |at| at + unit.start)));
+        findings.extend(found.iter().map(|f| moved(f, |offset| offset + unit.start)));
         // A finding that refers to text outside its block depends on more than the block.
         if found.iter().all(|f| spans(f).all(|span| span.end <= unit.len())) {
             next_blocks.insert(key, found);
@@ -142,7 +142,7 @@ fn within(span: &Range<usize>, unit: &Range<usize>) -> bool {
 fn check_block(lesson: &Lesson, unit: &Range<usize>, models: &Models) -> Vec<Finding> {
     let found = check::run_checks(&part_of(lesson, unit), models, CheckLevel::STATIC).findings;
     let inside = found.into_iter().filter(|f| (unit.start..=unit.end).contains(&f.span.start));
-    inside.map(|f| moved(&f, |at| at.wrapping_sub(unit.start))).collect()
+    inside.map(|f| moved(&f, |offset| offset.wrapping_sub(unit.start))).collect()
 }
 
 /// Checks the claims of one block with all their runs, as if only the blocks that it names existed.
@@ -253,12 +253,12 @@ It comes late.
             let mut document = Document::new(path.clone(), &text);
             let typed =
                 [("qpos", "qpso"), ("\"verify\"", "\"verfy\""), ("{", ""), ("data.", "dta."), ("```", "``")];
-            for (at, what) in
+            for (old_text, what) in
                 typed.into_iter().chain([("far", "fra"), ("low", "lwo"), ("#1", "#2"), ("late", "lat")])
             {
-                for (place, _) in text.match_indices(at).step_by(stride) {
+                for (place, _) in text.match_indices(old_text).step_by(stride) {
                     let mut changed = text.clone();
-                    changed.replace_range(place..place + at.len(), what);
+                    changed.replace_range(place..place + old_text.len(), what);
                     document.set_text(changed);
                     document.check(&context);
                     let plain = plainly(document.file.clone(), &path, &context.models);

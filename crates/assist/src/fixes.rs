@@ -97,7 +97,7 @@ pub fn suppression(lesson: &Lesson, f: &Finding) -> Option<TextFix> {
     });
     let object =
         labs.chain(questions).filter(|(span, _)| holds(span)).min_by_key(|(span, _)| span.end - span.start);
-    let (at, text) = match object {
+    let (offset, text) = match object {
         Some((_, Some(lint))) => {
             // Adds a code to an existing list.
             let (_, last) = lint.codes.last()?;
@@ -116,7 +116,7 @@ pub fn suppression(lesson: &Lesson, f: &Finding) -> Option<TextFix> {
         None => return None,
     };
     let title = format!("suppress `{}` here, with a reason", f.code);
-    Some(TextFix { title, kind: FixKind::Suppression, edit: Edit { span: at..at, text } })
+    Some(TextFix { title, kind: FixKind::Suppression, edit: Edit { span: offset..offset, text } })
 }
 
 /// The start of the line before which a comment about a byte of the text is valid: that of its block or its paragraph.

@@ -58,11 +58,11 @@ fn add_html(lesson: &Lesson, all: &mut Vec<Fold>) {
             all.push(Fold { span: html.start..end, kind: FoldKind::Comment });
             continue;
         }
-        for (at, closes) in details_tags(text) {
+        for (offset, closes) in details_tags(text) {
             if !closes {
-                open.push(html.start + at);
+                open.push(html.start + offset);
             } else if let Some(start) = open.pop() {
-                let end = html.start + at + CLOSES_DETAILS.len();
+                let end = html.start + offset + CLOSES_DETAILS.len();
                 all.push(Fold { span: start..end, kind: FoldKind::Block });
             }
         }
@@ -72,8 +72,8 @@ fn add_html(lesson: &Lesson, all: &mut Vec<Fold>) {
 /// The offsets of the tags of `<details>` in HTML, and whether each is an end tag.
 fn details_tags(html: &str) -> Vec<(usize, bool)> {
     let lower = html.to_ascii_lowercase();
-    let opens = lower.match_indices(OPENS_DETAILS).map(|(at, _)| (at, false));
-    let closes = lower.match_indices(CLOSES_DETAILS).map(|(at, _)| (at, true));
+    let opens = lower.match_indices(OPENS_DETAILS).map(|(offset, _)| (offset, false));
+    let closes = lower.match_indices(CLOSES_DETAILS).map(|(offset, _)| (offset, true));
     let mut all: Vec<(usize, bool)> = opens.chain(closes).collect();
     all.sort_unstable();
     all

@@ -28,8 +28,8 @@ mod tests {
         let all = formatting(&lesson, &ModelFolder::unknown(), None);
         let texts: Vec<&str> = all.iter().map(|edit| edit.text.as_str()).collect();
         assert_eq!(texts, ["data.qpos[0] = 1", "ctx.a = 'ä'"]);
-        let at = text.find("ctx").unwrap_or(0);
-        let one = formatting(&lesson, &ModelFolder::unknown(), Some(&(at..at)));
+        let offset = text.find("ctx").unwrap_or(0);
+        let one = formatting(&lesson, &ModelFolder::unknown(), Some(&(offset..offset)));
         assert_eq!(one, all[1..]);
     }
 

@@ -63,8 +63,8 @@ pub fn hover(document: &mut Document, context: &mut Context, byte: usize) -> Opt
 fn hover_key(document: &Document, context: &Context, byte: usize) -> Option<Hover> {
     let file = &document.file;
     // The quoted text that contains the byte.
-    let line = file.text().get(..byte)?.rfind('\n').map_or(0, |at| at + 1);
-    let start = file.text().get(line..byte)?.rfind('"').map(|at| line + at)?;
+    let line = file.text().get(..byte)?.rfind('\n').map_or(0, |newline| newline + 1);
+    let start = file.text().get(line..byte)?.rfind('"').map(|quote| line + quote)?;
     let end = start + 1 + file.text().get(start + 1..)?.find(['"', '\n'])?;
     let word = file.text().get(start + 1..end)?;
     let offered = completions_in(file, end, &|asked| context.models.names(asked));

@@ -194,7 +194,8 @@ pub fn run_lenses(lesson: &Lesson, values: &RunValues) -> Vec<Lens> {
         let stored = values.0.get(&block_key(lesson, &unit));
         for place in places.iter().filter(|place| within(&place.span(), &unit)) {
             let span = place.span();
-            let result = stored.and_then(|all| all.iter().find(|(at, _)| unit.start + at == span.start));
+            let result =
+                stored.and_then(|all| all.iter().find(|(offset, _)| unit.start + offset == span.start));
             let kind = match (result, stored) {
                 (Some((_, text)), _) => LensKind::Result(text.clone()),
                 // It has been checked, and there is nothing to say.

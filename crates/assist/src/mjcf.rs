@@ -30,7 +30,7 @@ pub(crate) fn completions(xml: &str, byte: usize) -> Vec<Completion> {
             let innermost = open.names().last().into_iter();
             let closing =
                 innermost.map(|name| completion(name, CompletionKind::Element, "the end of the element"));
-            closing.map(|c| at(c, &tag.name_span())).collect()
+            closing.map(|c| replacing(c, &tag.name_span())).collect()
         }
         Spot::Name(tag) => children(open.names(), &tag.name_span(), "", true),
         Spot::Attribute(tag, typed) => attributes(xml, open.names(), &tag, &typed),
@@ -156,7 +156,7 @@ fn completion(label: &str, kind: CompletionKind, detail: &str) -> Completion {
     }
 }
 
-fn at(c: Completion, span: &Range<usize>) -> Completion {
+fn replacing(c: Completion, span: &Range<usize>) -> Completion {
     Completion { edit: Edit { span: span.clone(), ..c.edit }, ..c }
 }
 
@@ -180,7 +180,7 @@ fn children(open: &[&str], span: &Range<usize>, before: &str, is_tag: bool) -> V
         .collect();
     if let Some(name) = open.last().filter(|_| is_tag) {
         let end = format!("/{name}>");
-        items.push(at(completion(&end, CompletionKind::Element, "the end of the element"), span));
+        items.push(replacing(completion(&end, CompletionKind::Element, "the end of the element"), span));
     }
     items
 }
@@ -231,7 +231,7 @@ fn values(xml: &str, open: &[&str], tag: &Tag<'_>, name: &str, span: &Range<usiz
         },
         AttributeType::Reals(..) | AttributeType::Ints(..) | AttributeType::Name(_) => return Vec::new(),
     };
-    names.iter().map(|n| at(completion(n, kind, &detail), span)).collect()
+    names.iter().map(|n| replacing(completion(n, kind, &detail), span)).collect()
 }
 
 /// The kind of object that `objname` or `refname` names: that of the attribute `objtype` or `reftype` beside it.
@@ -386,13 +386,13 @@ mod tests {
         #[test]
         fn any_text_at_any_offset(
             text in "[<>/='\"a! \\-é]{0,40}|(<mujoco>|<worldbody>|<body |<geom |type=|name=|'a'|/>|<!--|\\]\\]>|</body>|é){0,12}",
-            at in 0..80_usize,
+            offset in 0..80_usize,
         ) {
-            let at = (0..=at.min(text.len())).rev().find(|at| text.is_char_boundary(*at)).unwrap_or(0);
-            for c in completions(&text, at) {
+            let offset = (0..=offset.min(text.len())).rev().find(|offset| text.is_char_boundary(*offset)).unwrap_or(0);
+            for c in completions(&text, offset) {
                 prop_assert!(text.get(c.edit.span).is_some());
             }
-            prop_assert!(hover(&text, at).is_none_or(|h| text.get(h.span).is_some()));
+            prop_assert!(hover(&text, offset).is_none_or(|h| text.get(h.span).is_some()));
         }
     }
 }

@@ -46,12 +46,12 @@ pub(crate) fn sections(lesson: &Lesson) -> Vec<(usize, Range<usize>, Range<usize
     let all =
         lesson.scan.headings.iter().map(|heading| (level(file.slice(heading.clone())), heading.clone()));
     let all: Vec<(usize, Range<usize>)> = all.collect();
-    let end = |at: usize, level: usize| {
-        let next = all.iter().skip(at + 1).find(|(other, _)| *other <= level);
+    let end = |index: usize, level: usize| {
+        let next = all.iter().skip(index + 1).find(|(other, _)| *other <= level);
         next.map_or(file.text().len(), |(_, heading)| heading.start)
     };
-    let one = |(at, (level, heading)): (usize, &(usize, Range<usize>))| {
-        (*level, heading.clone(), heading.start..end(at, *level).max(heading.end))
+    let one = |(index, (level, heading)): (usize, &(usize, Range<usize>))| {
+        (*level, heading.clone(), heading.start..end(index, *level).max(heading.end))
     };
     all.iter().enumerate().map(one).collect()
 }

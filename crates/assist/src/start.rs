@@ -35,8 +35,8 @@ pub(crate) struct StartedLabs(Vec<StartedLab>);
 impl StartedLabs {
     /// Returns a lab, started if necessary, or `None` if its model does not exist or has errors.
     pub(crate) fn start(&mut self, models: &Models, lab: &Lab, key: &str) -> Option<&StartedLab> {
-        if let Some(at) = self.0.iter().position(|s| s.key == key) {
-            return self.0.get(at);
+        if let Some(index) = self.0.iter().position(|s| s.key == key) {
+            return self.0.get(index);
         }
         let model = models.model_of_lab(lab, &mut Vec::<Finding>::new())?;
         let programs = Arc::new(Programs::compile(lab, &model, &mut Vec::new()));

@@ -41,12 +41,12 @@ pub(crate) enum Markup<'x> {
 /// All markup of a text, in order.
 pub(crate) struct Tags<'x> {
     xml: &'x str,
-    at: usize,
+    offset: usize,
 }
 
 impl<'x> Tags<'x> {
     pub(crate) fn new(xml: &'x str) -> Tags<'x> {
-        Tags { xml, at: 0 }
+        Tags { xml, offset: 0 }
     }
 
     /// Behind a text, searched from a byte on.
@@ -70,16 +70,16 @@ impl<'x> Iterator for Tags<'x> {
     type Item = Markup<'x>;
 
     fn next(&mut self) -> Option<Markup<'x>> {
-        let start = self.at + self.xml.get(self.at..)?.find('<')?;
+        let start = self.offset + self.xml.get(self.offset..)?.find('<')?;
         let rest = self.xml.get(start..)?;
         let other = [("<!--", "-->"), ("<![CDATA[", "]]>"), ("<?", ">"), ("<!", ">")];
         if let Some((begin, end)) = other.into_iter().find(|(begin, _)| rest.starts_with(begin)) {
             let behind = self.behind(start + begin.len(), end);
-            self.at = behind.unwrap_or(self.xml.len());
-            return Some(Markup::Other(start..self.at, behind.is_some()));
+            self.offset = behind.unwrap_or(self.xml.len());
+            return Some(Markup::Other(start..self.offset, behind.is_some()));
         }
         let tag = self.tag(start);
-        self.at = tag.end;
+        self.offset = tag.end;
         Some(Markup::Tag(tag))
     }
 }
@@ -117,33 +117,33 @@ pub(crate) fn word(text: &str) -> &str {
 
 /// The attributes of a tag from a byte on, the end of the tag, and whether the element ends with the tag.
 fn attributes(xml: &str, from: usize) -> (Vec<Attribute<'_>>, usize, bool) {
-    let (mut all, mut at) = (Vec::new(), from);
-    let rest = |at: usize| xml.get(at..).unwrap_or("");
-    let blank = |at: usize| at + rest(at).len() - rest(at).trim_start().len();
+    let (mut all, mut offset) = (Vec::new(), from);
+    let rest = |offset: usize| xml.get(offset..).unwrap_or("");
+    let blank = |offset: usize| offset + rest(offset).len() - rest(offset).trim_start().len();
     loop {
-        at = blank(at);
-        let name = word(rest(at));
-        let Some(first) = rest(at).chars().next() else { return (all, at, false) };
+        offset = blank(offset);
+        let name = word(rest(offset));
+        let Some(first) = rest(offset).chars().next() else { return (all, offset, false) };
         match first {
-            '>' => return (all, at + 1, false),
-            '/' if rest(at).starts_with("/>") => return (all, at + 2, true),
+            '>' => return (all, offset + 1, false),
+            '/' if rest(offset).starts_with("/>") => return (all, offset + 2, true),
             // The next tag begins, so this one was not finished.
-            '<' => return (all, at, false),
-            _ if name.is_empty() => at += first.len_utf8(),
+            '<' => return (all, offset, false),
+            _ if name.is_empty() => offset += first.len_utf8(),
             _ => {
-                let equals = blank(at + name.len());
-                at += name.len();
+                let equals = blank(offset + name.len());
+                offset += name.len();
                 if !rest(equals).starts_with('=') {
                     continue;
                 }
                 let start = blank(equals + 1);
                 let Some(quote) = rest(start).chars().next().filter(|c| matches!(c, '"' | '\'')) else {
-                    at = start;
+                    offset = start;
                     continue;
                 };
                 let Some(length) = rest(start + 1).find(quote) else { return (all, xml.len(), false) };
                 all.push((name, start + 1..start + 1 + length));
-                at = start + 1 + length + 1;
+                offset = start + 1 + length + 1;
             }
         }
     }

@@ -13,10 +13,10 @@ impl<'t> Utf16Offsets<'t> {
     pub fn new(text: &'t str) -> Utf16Offsets<'t> {
         let mut lines = Vec::new();
         if !text.is_ascii() {
-            let mut at = (0, 0);
+            let mut offsets = (0, 0);
             for line in text.split_inclusive('\n') {
-                lines.push(at);
-                at = (at.0 + line.len(), at.1 + line.encode_utf16().count());
+                lines.push(offsets);
+                offsets = (offsets.0 + line.len(), offsets.1 + line.encode_utf16().count());
             }
         }
         Utf16Offsets { text, lines }
@@ -26,8 +26,8 @@ impl<'t> Utf16Offsets<'t> {
     pub fn of_byte(&self, byte: usize) -> usize {
         let byte = byte.min(self.text.len());
         let (start, mut units) = self.line(|(b, _)| *b <= byte, byte);
-        for (at, c) in self.rest(start) {
-            if start + at + c.len_utf8() > byte {
+        for (index, c) in self.rest(start) {
+            if start + index + c.len_utf8() > byte {
                 break;
             }
             units += c.len_utf16();
@@ -38,10 +38,10 @@ impl<'t> Utf16Offsets<'t> {
     /// The byte of a UTF-16 offset; inside a surrogate pair, that of its character; beyond the end, the length.
     pub fn to_byte(&self, offset: usize) -> usize {
         let (start, mut units) = self.line(|(_, u)| *u <= offset, offset);
-        for (at, c) in self.rest(start) {
+        for (index, c) in self.rest(start) {
             units += c.len_utf16();
             if units > offset {
-                return start + at;
+                return start + index;
             }
         }
         self.text.len()
@@ -54,7 +54,7 @@ impl<'t> Utf16Offsets<'t> {
             return (offset, offset);
         }
         let after = self.lines.partition_point(holds);
-        after.checked_sub(1).and_then(|at| self.lines.get(at)).copied().unwrap_or_default()
+        after.checked_sub(1).and_then(|index| self.lines.get(index)).copied().unwrap_or_default()
     }
 
     fn rest(&self, start: usize) -> impl Iterator<Item = (usize, char)> + use<'t> {

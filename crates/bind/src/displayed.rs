@@ -41,8 +41,8 @@ impl DisplayedLabels {
     }
 
     pub(crate) fn find(&self, label: &str) -> Option<ObjectId> {
-        let at = self.labels.iter().position(|l| l == label)?;
-        self.used.borrow_mut().insert(at);
-        Some(ObjectId(at as u32))
+        let index = self.labels.iter().position(|l| l == label)?;
+        self.used.borrow_mut().insert(index);
+        Some(ObjectId(index as u32))
     }
 }

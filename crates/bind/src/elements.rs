@@ -17,17 +17,17 @@ pub(super) fn row(m: &Model, f: FieldId, kind: Obj, index: usize) -> Option<(usi
 
 /// The first row and the number of rows of one object along a dimension.
 fn span(m: &Model, kind: Obj, dim: FieldId, index: usize) -> Option<(usize, usize)> {
-    let at = |v: &[i32]| v.get(index).and_then(|&x| usize::try_from(x).ok());
+    let value_of = |v: &[i32]| v.get(index).and_then(|&x| usize::try_from(x).ok());
     let one = |field: FieldId| (dim == field).then_some((index, 1));
     match (kind, dim) {
-        (Obj::Joint, model::nq) => Some((at(&m.jnt_qposadr)?, joint::nq(*m.jnt_type.get(index)?))),
-        (Obj::Joint, model::nv) => Some((at(&m.jnt_dofadr)?, joint::nv(*m.jnt_type.get(index)?))),
-        (Obj::Sensor, model::nsensordata) => Some((at(&m.sensor_adr)?, at(&m.sensor_dim)?)),
-        (Obj::Actuator, model::nu) => Some((at(&m.actuator_ctrladr)?, at(&m.actuator_ctrlnum)?)),
-        (Obj::Actuator, model::nout) => Some((at(&m.actuator_outadr)?, at(&m.actuator_outnum)?)),
-        (Obj::Actuator, model::na) => Some((at(&m.actuator_actadr)?, at(&m.actuator_actnum)?)),
-        (Obj::Numeric, model::nnumericdata) => Some((at(&m.numeric_adr)?, at(&m.numeric_size)?)),
-        (Obj::Tuple, model::ntupledata) => Some((at(&m.tuple_adr)?, at(&m.tuple_size)?)),
+        (Obj::Joint, model::nq) => Some((value_of(&m.jnt_qposadr)?, joint::nq(*m.jnt_type.get(index)?))),
+        (Obj::Joint, model::nv) => Some((value_of(&m.jnt_dofadr)?, joint::nv(*m.jnt_type.get(index)?))),
+        (Obj::Sensor, model::nsensordata) => Some((value_of(&m.sensor_adr)?, value_of(&m.sensor_dim)?)),
+        (Obj::Actuator, model::nu) => Some((value_of(&m.actuator_ctrladr)?, value_of(&m.actuator_ctrlnum)?)),
+        (Obj::Actuator, model::nout) => Some((value_of(&m.actuator_outadr)?, value_of(&m.actuator_outnum)?)),
+        (Obj::Actuator, model::na) => Some((value_of(&m.actuator_actadr)?, value_of(&m.actuator_actnum)?)),
+        (Obj::Numeric, model::nnumericdata) => Some((value_of(&m.numeric_adr)?, value_of(&m.numeric_size)?)),
+        (Obj::Tuple, model::ntupledata) => Some((value_of(&m.tuple_adr)?, value_of(&m.tuple_size)?)),
         (kind, _) => one(size_of(kind)?),
     }
 }
@@ -104,13 +104,13 @@ pub(super) fn help(m: &Model, f: FieldId, index: usize, unit: &str) -> Option<St
     let noun = super::handle::KINDS.iter().find(|(k, _)| *k == kind).map_or("object", |(_, noun)| noun);
     let name = m.names.of_kind(kind).get(object).map_or("", String::as_str);
     let name = if name.is_empty() { format!("{object}") } else { name.to_owned() };
-    let at = index - first;
+    let offset = index - first;
     let info = f.info();
     if kind == Obj::Joint {
         let ty = *m.jnt_type.get(object)?;
         let what = match f.rows()? {
-            model::nq => coordinate(ty, at),
-            model::nv => rate(ty, at),
+            model::nq => coordinate(ty, offset),
+            model::nv => rate(ty, offset),
             _ => None,
         };
         if let Some((what, unit)) = what {
@@ -127,9 +127,9 @@ pub(super) fn help(m: &Model, f: FieldId, index: usize, unit: &str) -> Option<St
     }
     let part = match count {
         1 => String::new(),
-        3 => format!(" {}", ["x", "y", "z"].get(at)?),
-        4 if info.name.contains("quat") => format!(" quaternion {}", ["w", "x", "y", "z"].get(at)?),
-        _ => format!(" number {at}"),
+        3 => format!(" {}", ["x", "y", "z"].get(offset)?),
+        4 if info.name.contains("quat") => format!(" quaternion {}", ["w", "x", "y", "z"].get(offset)?),
+        _ => format!(" number {offset}"),
     };
     let unit = if unit.is_empty() { String::new() } else { format!(", {unit}") };
     Some(format!("{noun} {name}:{part} of {}{unit}", f.doc()))
@@ -145,26 +145,26 @@ fn joint_word(ty: i32) -> &'static str {
 }
 
 /// The description and the unit of a coordinate of a joint.
-fn coordinate(ty: i32, at: usize) -> Option<(&'static str, &'static str)> {
+fn coordinate(ty: i32, offset: usize) -> Option<(&'static str, &'static str)> {
     const QUATERNION: [&str; 4] =
         ["quaternion w (cosine of half the angle)", "quaternion x", "quaternion y", "quaternion z"];
-    Some(match (ty, at) {
-        (joint::FREE, 0..=2) => (["x position", "y position", "z position"].get(at)?, "m"),
-        (joint::FREE, _) => (QUATERNION.get(at - 3)?, ""),
-        (joint::BALL, _) => (QUATERNION.get(at)?, ""),
+    Some(match (ty, offset) {
+        (joint::FREE, 0..=2) => (["x position", "y position", "z position"].get(offset)?, "m"),
+        (joint::FREE, _) => (QUATERNION.get(offset - 3)?, ""),
+        (joint::BALL, _) => (QUATERNION.get(offset)?, ""),
         (joint::SLIDE, _) => ("position", "m"),
         _ => ("angle", "rad"),
     })
 }
 
 /// The description of a degree of freedom of a joint, and the unit of its coordinate.
-fn rate(ty: i32, at: usize) -> Option<(&'static str, &'static str)> {
+fn rate(ty: i32, offset: usize) -> Option<(&'static str, &'static str)> {
     const ROTATIONS: [&str; 3] =
         ["turning about its own x", "turning about its own y", "turning about its own z"];
-    Some(match (ty, at) {
-        (joint::FREE, 0..=2) => (["along x", "along y", "along z"].get(at)?, "m"),
-        (joint::FREE, _) => (ROTATIONS.get(at - 3)?, "rad"),
-        (joint::BALL, _) => (ROTATIONS.get(at)?, "rad"),
+    Some(match (ty, offset) {
+        (joint::FREE, 0..=2) => (["along x", "along y", "along z"].get(offset)?, "m"),
+        (joint::FREE, _) => (ROTATIONS.get(offset - 3)?, "rad"),
+        (joint::BALL, _) => (ROTATIONS.get(offset)?, "rad"),
         (joint::SLIDE, _) => ("along its axis", "m"),
         _ => ("about its axis", "rad"),
     })

@@ -48,7 +48,7 @@ impl Functions {
         if self.find(name).is_some() || is_taken(name) {
             return Err(Error::Call(format!("`{name}` already has a meaning")));
         }
-        let at = self.0.len() as u32;
+        let index = self.0.len() as u32;
         let function =
             EmbeddedFunction { name: name.to_string(), params, doc: doc.to_string(), call: Arc::new(call) };
         Arc::make_mut(&mut self.0).push(function);
@@ -58,7 +58,7 @@ impl Functions {
         // `value` is a name of the language if there is a control.
         let mut compiler = Compiler::new(&names, &mut globals).with_value(Some(Type::Number));
         let program = compiler.expression(&text).program;
-        match program.is_some_and(|p| p.effects().calls.contains(&FunctionId(at))) {
+        match program.is_some_and(|p| p.effects().calls.contains(&FunctionId(index))) {
             true => Ok(self),
             false => Err(Error::Call(format!("`{name}` is not a valid name for a function"))),
         }
@@ -74,8 +74,8 @@ impl Functions {
     }
 
     /// Returns the signature and the effects of a function.
-    pub(crate) fn info(&self, at: usize) -> Option<FunctionInfo> {
-        let function = self.0.get(at)?;
+    pub(crate) fn info(&self, index: usize) -> Option<FunctionInfo> {
+        let function = self.0.get(index)?;
         Some(FunctionInfo {
             name: function.name.clone(),
             params: vec![Param::Number; function.params],
@@ -93,8 +93,8 @@ impl Functions {
     }
 
     /// Calls a free function.
-    pub(crate) fn call(&self, at: usize, args: &[Value]) -> Option<Result<Value, String>> {
-        let function = self.0.get(at)?;
+    pub(crate) fn call(&self, index: usize, args: &[Value]) -> Option<Result<Value, String>> {
+        let function = self.0.get(index)?;
         let numbers: Vec<f64> = args.iter().map(Value::to_number).collect();
         Some((function.call)(&numbers).map(Value::Number))
     }

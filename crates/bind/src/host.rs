@@ -51,7 +51,7 @@ impl Host for World {
                 core::charge(&mut self.data, embedded::PRICE);
                 let called = (f as usize)
                     .checked_sub(functions::TABLE.len())
-                    .and_then(|at| self.functions.call(at, args));
+                    .and_then(|index| self.functions.call(index, args));
                 called.unwrap_or_else(|| Err("the function does not exist".into()))
             }
         }

@@ -36,7 +36,7 @@ pub(super) fn measure(m: &Model, f: FieldId, first: usize, count: Option<usize>)
     if last.saturating_sub(first) > MAX_ELEMENTS {
         return Measure::Unknown;
     }
-    let mut all = (first..last).map(|at| element(m, f, &shape, at));
+    let mut all = (first..last).map(|index| element(m, f, &shape, index));
     let start = all.next().unwrap_or_default();
     all.fold(start, |common, next| if common == next { common } else { Measure::Unknown })
 }
@@ -50,7 +50,7 @@ pub(super) fn unit(m: &Model, f: FieldId, first: usize, count: Option<usize>) ->
     if !(is_open || of_objects) || count.is_some_and(|count| count > MAX_UNIT_ELEMENTS) {
         return declared.to_string();
     }
-    let Measure::Known(dimension) = measure(m, f, first, count) else { return declared.to_string() };
+    let Measure::Dimension(dimension) = measure(m, f, first, count) else { return declared.to_string() };
     let parts = declared.split(" or ").flat_map(|part| part.split(", "));
     let mut same = parts.filter(|part| units::parse(part) == Some(dimension));
     match same.next() {
@@ -61,10 +61,10 @@ pub(super) fn unit(m: &Model, f: FieldId, first: usize, count: Option<usize>) ->
 }
 
 /// The dimension of one element.
-fn element(m: &Model, f: FieldId, shape: &[Option<usize>], at: usize) -> Measure {
+fn element(m: &Model, f: FieldId, shape: &[Option<usize>], index: usize) -> Measure {
     let info = f.info();
     if info.elem != Elem::F64 {
-        return Measure::Known(Dimension::NUMBER);
+        return Measure::Dimension(Dimension::NUMBER);
     }
     // Negative values of these parameters have another meaning.
     if info.name.contains("solref") {
@@ -72,69 +72,69 @@ fn element(m: &Model, f: FieldId, shape: &[Option<usize>], at: usize) -> Measure
     }
     let dim = f.rows();
     match f {
-        data::sensordata => return sensor(m, f, at),
-        data::ctrl => return control(m, at),
-        model::actuator_ctrlrange => return control(m, at / 2),
+        data::sensordata => return sensor(m, f, index),
+        data::ctrl => return control(m, index),
+        model::actuator_ctrlrange => return control(m, index / 2),
         _ => {}
     }
     if f.unit().is_empty() {
         let turned = ["quat", "mat", "axis", "xdir"].iter().any(|part| info.name.contains(part));
-        return if turned { Measure::Known(Dimension::NUMBER) } else { Measure::Unknown };
+        return if turned { Measure::Dimension(Dimension::NUMBER) } else { Measure::Unknown };
     }
     let width: usize = shape.iter().skip(1).map(|d| d.unwrap_or(1)).product();
-    let Some(unit) = part(f.unit(), at % width.max(1), width) else { return Measure::Unknown };
+    let Some(unit) = part(f.unit(), index % width.max(1), width) else { return Measure::Unknown };
     let Some((along, turning)) = unit.split_once(" or ") else { return read(unit) };
     let motion = match dim {
-        Some(dim @ (model::nq | model::nv | model::njnt)) => joint_motion(m, f, dim, at),
+        Some(dim @ (model::nq | model::nv | model::njnt)) => joint_motion(m, f, dim, index),
         // A keyframe is a row of coordinates.
-        Some(model::nkey) => row_motion(m, f, at % width.max(1)),
+        Some(model::nkey) => row_motion(m, f, index % width.max(1)),
         Some(model::nout | model::nactuator) => {
-            elements::owner(m, f, at).and_then(|(_, i)| actuator_motion(m, i))
+            elements::owner(m, f, index).and_then(|(_, i)| actuator_motion(m, i))
         }
         _ => None,
     };
     match motion {
         Some(MotionKind::Along) => read(along),
         Some(MotionKind::Turning) => read(turning),
-        Some(MotionKind::Number) => Measure::Known(Dimension::NUMBER),
+        Some(MotionKind::Number) => Measure::Dimension(Dimension::NUMBER),
         None => Measure::Unknown,
     }
 }
 
 fn read(unit: &str) -> Measure {
-    units::parse(unit).map_or(Measure::Unknown, Measure::Known)
+    units::parse(unit).map_or(Measure::Unknown, Measure::Dimension)
 }
 
 /// The unit of one number in a row: `1, m, m` has one unit for each of three numbers; `N, N m` has one for
 /// each half of six numbers.
-fn part(unit: &str, at: usize, width: usize) -> Option<&str> {
+fn part(unit: &str, index: usize, width: usize) -> Option<&str> {
     let parts: Vec<&str> = unit.split(", ").collect();
     let which = match (parts.len(), width) {
         (1, _) => 0,
-        (n, w) if n == w => at,
-        (2, 6) => at / 3,
+        (n, w) if n == w => index,
+        (2, 6) => index / 3,
         // An inertia has one number of the third unit, three of the second and six of the first.
-        (3, 10) => [0, 0, 0, 0, 0, 0, 1, 1, 1, 2].get(at).copied()?,
+        (3, 10) => [0, 0, 0, 0, 0, 0, 1, 1, 1, 2].get(index).copied()?,
         _ => return None,
     };
     parts.get(which).copied()
 }
 
 /// The motion of the joint to which an element belongs.
-fn joint_motion(m: &Model, f: FieldId, dim: FieldId, at: usize) -> Option<MotionKind> {
-    let (Obj::Joint, object) = elements::owner(m, f, at)? else { return None };
+fn joint_motion(m: &Model, f: FieldId, dim: FieldId, index: usize) -> Option<MotionKind> {
+    let (Obj::Joint, object) = elements::owner(m, f, index)? else { return None };
     let (first, _) = elements::row(m, f, Obj::Joint, object)?;
-    motion(*m.jnt_type.get(object)?, at - first, dim)
+    motion(*m.jnt_type.get(object)?, index - first, dim)
 }
 
 /// The motion of a coordinate of a joint.
-fn motion(ty: i32, at: usize, dim: FieldId) -> Option<MotionKind> {
+fn motion(ty: i32, offset: usize, dim: FieldId) -> Option<MotionKind> {
     Some(match (ty, dim) {
         (joint::SLIDE, _) => MotionKind::Along,
         (joint::HINGE, _) => MotionKind::Turning,
         // The limits of a ball joint apply to its angle.
         (joint::BALL, model::njnt) => MotionKind::Turning,
-        (joint::FREE, model::nq | model::nv) if at < 3 => MotionKind::Along,
+        (joint::FREE, model::nq | model::nv) if offset < 3 => MotionKind::Along,
         (joint::FREE | joint::BALL, model::nq) => MotionKind::Number,
         (joint::FREE | joint::BALL, model::nv) => MotionKind::Turning,
         _ => return None,
@@ -142,14 +142,14 @@ fn motion(ty: i32, at: usize, dim: FieldId) -> Option<MotionKind> {
 }
 
 /// The motion of a coordinate in a keyframe.
-fn row_motion(m: &Model, f: FieldId, at: usize) -> Option<MotionKind> {
+fn row_motion(m: &Model, f: FieldId, index: usize) -> Option<MotionKind> {
     let (starts, dim) = match f {
         model::key_qpos => (&m.jnt_qposadr, model::nq),
         model::key_qvel => (&m.jnt_dofadr, model::nv),
         _ => return None,
     };
-    let (object, first) = starts.iter().enumerate().rev().find(|(_, first)| **first as usize <= at)?;
-    motion(*m.jnt_type.get(object)?, at - *first as usize, dim)
+    let (object, first) = starts.iter().enumerate().rev().find(|(_, first)| **first as usize <= index)?;
+    motion(*m.jnt_type.get(object)?, index - *first as usize, dim)
 }
 
 /// The motion that an actuator causes, if its gear does not change units.
@@ -175,17 +175,18 @@ fn actuator_motion(m: &Model, actuator: usize) -> Option<MotionKind> {
 fn tendon_motion(m: &Model, tendon: usize) -> Option<MotionKind> {
     let first = usize::try_from(*m.tendon_adr.get(tendon)?).ok()?;
     let count = usize::try_from(*m.tendon_num.get(tendon)?).ok()?;
-    let along = |at: usize| {
-        let kind = m.wrap_type.get(at).copied().unwrap_or(wraptype::PULLEY);
-        let target = m.wrap_objid.get(at).and_then(|j| usize::try_from(*j).ok());
+    let along = |index: usize| {
+        let kind = m.wrap_type.get(index).copied().unwrap_or(wraptype::PULLEY);
+        let target = m.wrap_objid.get(index).and_then(|j| usize::try_from(*j).ok());
         kind != wraptype::JOINT || target.and_then(|j| m.jnt_type.get(j)) == Some(&joint::SLIDE)
     };
     (first..first + count).all(along).then_some(MotionKind::Along)
 }
 
 /// The dimension of a control: the force of a motor, or the target position or velocity of a servo.
-fn control(m: &Model, at: usize) -> Measure {
-    let object = (0..m.nactuator).find(|i| m.actuator_ctrladr.get(*i).is_some_and(|a| *a as usize == at));
+fn control(m: &Model, address: usize) -> Measure {
+    let object =
+        (0..m.nactuator).find(|i| m.actuator_ctrladr.get(*i).is_some_and(|a| *a as usize == address));
     let Some(i) = object.filter(|i| m.actuator_ctrlnum.get(*i) == Some(&1)) else { return Measure::Unknown };
     let Some(motion) = actuator_motion(m, i) else { return Measure::Unknown };
     let prm = |list: &[f64], k: usize| list.get(10 * i + k).copied().unwrap_or(f64::NAN);
@@ -204,8 +205,8 @@ fn control(m: &Model, at: usize) -> Measure {
 }
 
 /// The dimension of a value of a sensor.
-fn sensor(m: &Model, f: FieldId, at: usize) -> Measure {
-    let Some((Obj::Sensor, s)) = elements::owner(m, f, at) else { return Measure::Unknown };
+fn sensor(m: &Model, f: FieldId, index: usize) -> Measure {
+    let Some((Obj::Sensor, s)) = elements::owner(m, f, index) else { return Measure::Unknown };
     let unit = core::sensor_unit(m, s);
     let Some((along, turning)) = unit.split_once(" or ") else { return read(unit) };
     let object = m.sensor_objid.get(s).and_then(|o| usize::try_from(*o).ok());

@@ -398,9 +398,9 @@ impl Schema for ModelNames<'_> {
     }
 
     fn function(&self, FunctionId(i): FunctionId) -> FunctionInfo {
-        let at = i as usize;
-        let embedded = || self.functions?.info(at.checked_sub(TABLE.len())?);
-        functions::INFO.get(at).cloned().or_else(embedded).unwrap_or_else(functions::none)
+        let index = i as usize;
+        let embedded = || self.functions?.info(index.checked_sub(TABLE.len())?);
+        functions::INFO.get(index).cloned().or_else(embedded).unwrap_or_else(functions::none)
     }
 
     fn hint(&self, object: ObjectId, name: &str, index: Option<usize>) -> Option<String> {

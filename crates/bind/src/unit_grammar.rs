@@ -86,8 +86,11 @@ fn name(text: &str) -> IResult<&str, Meaning> {
     let wide = text.starts_with(is_wide);
     let letter = |c: char| is_letter(c) && is_wide(c) == wide || matches!(c, '°' | 'µ' | '℃' | '℉');
     let (_, word) = take_while_m_n(1, MAX_WORD, letter).parse(text)?;
-    let ends =
-        word.char_indices().rev().map(|(at, c)| at + c.len_utf8()).take(if wide { MAX_WORD } else { 1 });
+    let ends = word.char_indices().rev().map(|(start, c)| start + c.len_utf8()).take(if wide {
+        MAX_WORD
+    } else {
+        1
+    });
     let meaning = |word: &str| {
         if is_other(word) { Some(None) } else { symbol(&word.replace('µ', "μ")).map(Some) }
     };

@@ -215,10 +215,10 @@ fn is_unchecked_claim(entry: &Entry) -> bool {
 }
 
 /// The line that contains a position, without surrounding space.
-fn line(text: &str, at: usize) -> &str {
-    let (before, after) = text.split_at_checked(at).unwrap_or((text, ""));
+fn line(text: &str, offset: usize) -> &str {
+    let (before, after) = text.split_at_checked(offset).unwrap_or((text, ""));
     let start = before.rfind('\n').map_or(0, |i| i + 1);
-    let end = at + after.find('\n').unwrap_or(after.len());
+    let end = offset + after.find('\n').unwrap_or(after.len());
     text.get(start..end).unwrap_or_default().trim()
 }
 
@@ -236,7 +236,9 @@ mod tests {
         let file = |text: &str| SourceFile::new(folder.path().join("a.md").to_str().unwrap(), text);
         let found = |file: &SourceFile, word: &str| -> Vec<Finding> {
             let places = file.text().match_indices(word);
-            places.map(|(at, _)| Finding::new(rules::UNKNOWN_KEY, at..at + 1, "odd").at(file)).collect()
+            places
+                .map(|(offset, _)| Finding::new(rules::UNKNOWN_KEY, offset..offset + 1, "odd").at(file))
+                .collect()
         };
         let old = file("one\n  odd here\nodd there\n");
         Baseline::new(&path).write(&path, &found(&old, "odd"), &[&old], (&[], &[])).unwrap();

@@ -217,11 +217,11 @@ fn command_outcome(
             Err(format!("there is nothing to check in {}: no lab, no question and no model", names()))
         }
         ledger::Outcome::Partial => Ok(CommandOutcome::Partial),
-        ledger::Outcome::Clean | ledger::Outcome::Known
+        ledger::Outcome::Clean | ledger::Outcome::Baselined
             if results.reference_engine.is_some() && judge::is_partial(results) =>
         {
             Ok(CommandOutcome::Partial)
         }
-        ledger::Outcome::Clean | ledger::Outcome::Known => Ok(CommandOutcome::Clean),
+        ledger::Outcome::Clean | ledger::Outcome::Baselined => Ok(CommandOutcome::Clean),
     }
 }

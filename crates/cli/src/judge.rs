@@ -122,8 +122,10 @@ struct DifferenceRow<'c> {
     file: String,
     owner: &'c str,
     measure: &'c str,
-    ours: f64,
-    theirs: f64,
+    #[serde(rename = "ours")]
+    labspec_value: f64,
+    #[serde(rename = "theirs")]
+    reference_value: f64,
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     nonfinite: BTreeMap<&'c str, &'c str>,
     /// Why one of them is NaN.
@@ -254,16 +256,16 @@ impl<'c> JudgeReport<'c> {
                 all.verdicts += judged.claims;
                 all.turned += judged.turned;
                 all.differing.extend(judged.differing.iter().map(|difference| {
-                    let Difference { name: measure, ours, theirs, no_value } = difference;
-                    let both = [("ours", *ours), ("theirs", *theirs)].into_iter();
+                    let Difference { name: measure, labspec_value, reference_value, no_value } = difference;
+                    let both = [("ours", *labspec_value), ("theirs", *reference_value)].into_iter();
                     let nonfinite = both.filter_map(|(key, x)| Some((key, nonfinite(x)?))).collect();
                     let no_value = no_value.as_deref();
                     DifferenceRow {
                         file: file(),
                         owner,
                         measure,
-                        ours: *ours,
-                        theirs: *theirs,
+                        labspec_value: *labspec_value,
+                        reference_value: *reference_value,
                         nonfinite,
                         no_value,
                         difference,

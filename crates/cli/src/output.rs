@@ -128,7 +128,7 @@ pub(super) fn clear_abandoned(folder: &Path, is_temporary: fn(&str) -> bool) {
         let Some(name) = name.to_str().filter(|name| is_temporary(name)) else { continue };
         let process = name.trim_start_matches(".labspec-").split('-').next().and_then(|n| n.parse().ok());
         let Ok(meta) = entry.metadata() else { continue };
-        let age = meta.modified().ok().and_then(|at| at.elapsed().ok()).map_or(0, |age| age.as_secs());
+        let age = meta.modified().ok().and_then(|time| time.elapsed().ok()).map_or(0, |age| age.as_secs());
         let gone = process.is_some_and(has_ended);
         if meta.is_file() && process != Some(std::process::id()) && (gone || age >= ABANDONED_AFTER) {
             let _ = fs::remove_file(entry.path());
@@ -314,7 +314,7 @@ mod tests {
     #[test]
     fn temporary_files_of_a_killed_run_are_removed() {
         let folder = tempfile::tempdir().unwrap();
-        let at = |name: &str| folder.path().join(name);
+        let path_of = |name: &str| folder.path().join(name);
         // The first name has a process id that does not exist. The second belongs to this process, which may still write it.
         // The others are not names of temporary files.
         let temporary = format!(".labspec-{}-77.tmp", std::process::id());
@@ -326,13 +326,13 @@ mod tests {
             "a.tmp",
         ];
         for name in remaining.into_iter().chain([".labspec-4294967295-0.tmp"]) {
-            fs::write(at(name), "half").unwrap();
+            fs::write(path_of(name), "half").unwrap();
         }
-        write_file(&at("out.csv"), OutputKind::Table, "whole").unwrap();
-        assert_eq!(fs::read_to_string(at("out.csv")).unwrap(), "whole");
-        assert!(!at(".labspec-4294967295-0.tmp").exists() || !Path::new("/proc/self").exists());
+        write_file(&path_of("out.csv"), OutputKind::Table, "whole").unwrap();
+        assert_eq!(fs::read_to_string(path_of("out.csv")).unwrap(), "whole");
+        assert!(!path_of(".labspec-4294967295-0.tmp").exists() || !Path::new("/proc/self").exists());
         for name in remaining {
-            assert!(at(name).exists(), "{name}");
+            assert!(path_of(name).exists(), "{name}");
         }
     }
 }

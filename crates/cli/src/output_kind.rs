@@ -186,8 +186,8 @@ fn is_table(place: &Path) -> bool {
             Some(None) => return false,
             Some(Some(cells)) => {
                 let first = cells.first().map_or("", String::as_str);
-                let is_ours = if timed { is_time(first) } else { is_name(first) };
-                if cells.len() != columns.len() || !is_ours {
+                let is_row_name = if timed { is_time(first) } else { is_name(first) };
+                if cells.len() != columns.len() || !is_row_name {
                     return false;
                 }
             }
@@ -263,18 +263,18 @@ mod tests {
     fn own_tables_are_distinguished_from_measurements() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("t.csv");
-        let is_ours = |text: &str| {
+        let is_labspec_table = |text: &str| {
             fs::write(&path, text).unwrap();
             is_table(&path)
         };
-        for ours in [
+        for table in [
             "time\n0\n0.002\n",
             "time,readout/height (m)\n0,1\n0.002,0.99\n0.002,\n",
             "time,\"plot/0/light, say\",readout/a\n0,1,\"two\nlines, \"\"quoted\"\"\"\n",
             "integrator,solver,timestep,own,label\nEuler,,0.002,true,\"a, b\"\n",
             "integrator,solver,timestep (s),own,label,unit\nEuler,,0.002,true,\"a, b\",\"m\"\n",
         ] {
-            assert!(is_ours(ours), "{ours}");
+            assert!(is_labspec_table(table), "{table}");
         }
         for other in [
             "",
@@ -288,7 +288,7 @@ mod tests {
             "integrator,solver,order\nEuler,,1\n",
             "# A lesson\n\ntime, and what it is\n",
         ] {
-            assert!(!is_ours(other), "{other}");
+            assert!(!is_labspec_table(other), "{other}");
         }
     }
 

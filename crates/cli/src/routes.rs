@@ -133,8 +133,8 @@ fn matches(pattern: &str, name: &str) -> bool {
     let mut parts: Vec<&str> = parts.collect();
     let Some(last) = parts.pop() else { return rest.is_empty() };
     for part in parts {
-        let Some(at) = rest.find(part) else { return false };
-        rest = rest.get(at + part.len()..).unwrap_or("");
+        let Some(index) = rest.find(part) else { return false };
+        rest = rest.get(index + part.len()..).unwrap_or("");
     }
     rest.ends_with(last)
 }

@@ -103,8 +103,8 @@ fn human(a: &ScaffoldArguments, lesson: &Lesson, all: &[Scaffold]) -> String {
     let mut text = String::new();
     let mut counts = [0usize; 4];
     for one in all {
-        let at = lesson.file.position(one.span.start);
-        let _ = writeln!(text, "{}:{} {}", at.line, at.column, printable(&one.name));
+        let position = lesson.file.position(one.span.start);
+        let _ = writeln!(text, "{}:{} {}", position.line, position.column, printable(&one.name));
         let kind = match &one.found {
             ScaffoldOutcome::Proposed { .. } => 0,
             ScaffoldOutcome::Contradicted { .. } => 1,
@@ -216,8 +216,8 @@ fn row<'a>(lesson: &Lesson, one: &'a Scaffold) -> ScaffoldRow<'a> {
     let measured = |values: &'a [(String, f64)]| {
         values.iter().map(|(name, value)| ValueRow { name, value: *value }).collect()
     };
-    let (at, span) = (lesson.file.position(one.span.start), &one.span);
-    let (line, column) = (at.line, at.column);
+    let (position, span) = (lesson.file.position(one.span.start), &one.span);
+    let (line, column) = (position.line, position.column);
     let row =
         ScaffoldRow { name: &one.name, start: span.start, end: span.end, line, column, ..Default::default() };
     match &one.found {

@@ -158,7 +158,7 @@ fn parameters(s: Option<&SettingsRecord>) -> BTreeMap<(Option<&str>, &str), Valu
         .into_iter()
         .flat_map(|s| &s.contacts)
         .flat_map(|(geom, values)| values.iter().map(move |(name, value)| ((Some(&**geom), &**name), value)));
-    options.chain(contacts).map(|(at, value)| (at, value.as_slice().into())).collect()
+    options.chain(contacts).map(|(key, value)| (key, value.as_slice().into())).collect()
 }
 
 /// Compares the settings at the start of a run. `model_changed` states that a changed model has already been reported.
@@ -231,13 +231,13 @@ pub(super) fn summary(name: &str, all: &[LessonChange]) -> String {
     }
     let mut text = format!("since {name}:\n");
     for change in all {
-        let at = match (change.file.as_str(), change.owner.as_str()) {
+        let subject = match (change.file.as_str(), change.owner.as_str()) {
             ("", owner) => owner.to_string(),
             (file, "") => file.to_string(),
             (file, owner) if file == owner => file.to_string(),
             (file, owner) => format!("{file}, {owner}"),
         };
-        let _ = writeln!(text, "  {}", printable(&at));
+        let _ = writeln!(text, "  {}", printable(&subject));
         for step in &change.effects {
             let _ = writeln!(text, "    {}", printable(&line(step)));
         }

@@ -68,13 +68,13 @@ fn place(found: &Traces<'_>, hit: &MeasureMatch) -> String {
 fn human(a: &TraceArguments, lesson: &Lesson, found: &Traces<'_>) -> String {
     let mut text = String::new();
     for n in &found.numbers {
-        let at = lesson.file.position(n.stated.span.start);
+        let position = lesson.file.position(n.stated.span.start);
         let quote = printable(&n.stated.quote);
         let _ = writeln!(
             text,
             "{:>4}:{:<4} {quote:<14}{}",
-            at.line,
-            at.column,
+            position.line,
+            position.column,
             describe_origin(&n.origin, found)
         );
     }
@@ -179,7 +179,7 @@ struct ProposalRow {
 
 fn machine<'a>(lesson: &Lesson, found: &'a Traces<'_>) -> TraceReport<'a> {
     let numbers = found.numbers.iter().map(|n| {
-        let at = lesson.file.position(n.stated.span.start);
+        let position = lesson.file.position(n.stated.span.start);
         let (origin, hit, by) = match &n.origin {
             Origin::From(hit) => ("traced", Some(hit), None),
             Origin::Chance(hit) => ("chance", Some(hit), None),
@@ -193,8 +193,8 @@ fn machine<'a>(lesson: &Lesson, found: &'a Traces<'_>) -> TraceReport<'a> {
             text: &n.stated.quote,
             start: n.stated.span.start,
             end: n.stated.span.end,
-            line: at.line,
-            column: at.column,
+            line: position.line,
+            column: position.column,
             unit: &n.stated.unit,
             origin,
             from: hit.map(|hit| place(found, hit)),

@@ -24,10 +24,10 @@ fn largest<'a>(list: impl IntoIterator<Item = &'a f64>) -> f64 {
     list.into_iter().fold(0.0, |most, x| most.max(x.abs()))
 }
 
-fn near(ours: &DMatrix<f64>, theirs: &DMatrix<f64>, tolerance: f64, what: &str) {
-    assert_eq!(ours.shape(), theirs.shape(), "{what}");
-    let difference = largest(&(ours - theirs));
-    assert!(difference <= tolerance, "{what} differs by {difference:e}:\n{ours}{theirs}");
+fn near(computed: &DMatrix<f64>, recorded_matrix: &DMatrix<f64>, tolerance: f64, what: &str) {
+    assert_eq!(computed.shape(), recorded_matrix.shape(), "{what}");
+    let difference = largest(&(computed - recorded_matrix));
+    assert!(difference <= tolerance, "{what} differs by {difference:e}:\n{computed}{recorded_matrix}");
 }
 
 /// A free body, a ball joint on a hinge, and a slide: every kind of joint, rotated and moving.
@@ -77,10 +77,10 @@ fn linearizations_are_those_of_mujoco() {
 
         let n = 2 * model.nv + model.na;
         let recorded = |key: &str, r, c| DMatrix::from_row_slice(r, c, &numbers(key));
-        let check = |ours: &DMatrix<f64>, key: &str, tolerance: f64| {
-            let theirs = recorded(key, ours.nrows(), ours.ncols());
-            println!("{name} {key}: {:.1e}", largest(&(ours - &theirs)));
-            near(ours, &theirs, tolerance, &format!("{name}: {key}"));
+        let check = |computed: &DMatrix<f64>, key: &str, tolerance: f64| {
+            let recorded_matrix = recorded(key, computed.nrows(), computed.ncols());
+            println!("{name} {key}: {:.1e}", largest(&(computed - &recorded_matrix)));
+            near(computed, &recorded_matrix, tolerance, &format!("{name}: {key}"));
         };
         let body = model.bodies().nth(case["body"].as_u64().unwrap() as usize).unwrap();
         let point = Point3::from_slice(&numbers("point"));
@@ -95,11 +95,13 @@ fn linearizations_are_those_of_mujoco() {
         for (centered, scheme) in [(false, "forward"), (true, "centered")] {
             let eps = case["eps"].as_f64().unwrap();
             let how = FiniteDifferences { eps, centered, sensors: true };
-            let ours = transition_fd(&model, &data, &how).unwrap();
+            let computed = transition_fd(&model, &data, &how).unwrap();
             let (nu, ns) = (model.nu, model.nsensordata);
             let shapes = [(n, n), (n, nu), (ns, n), (ns, nu)];
-            for ((matrix, shape), key) in
-                [&ours.a, &ours.b, &ours.c, &ours.d].into_iter().zip(shapes).zip("abcd".chars())
+            for ((matrix, shape), key) in [&computed.a, &computed.b, &computed.c, &computed.d]
+                .into_iter()
+                .zip(shapes)
+                .zip("abcd".chars())
             {
                 assert_eq!(matrix.shape(), shape);
                 let key = format!("{key}_{scheme}");
@@ -111,17 +113,17 @@ fn linearizations_are_those_of_mujoco() {
                 // if the differences are centered: for a motor without a gear, whose force is its control, D = 1 with forward
                 // differences, and -1 with centered ones.
                 let sign = if key == "d_centered" { -1.0 } else { 1.0 };
-                let theirs = recorded(&key, shape.0, shape.1) * sign;
+                let recorded_matrix = recorded(&key, shape.0, shape.1) * sign;
                 for (row, value) in data.sensordata.iter().enumerate() {
-                    let difference = largest(&(matrix.row(row) - theirs.row(row)));
+                    let difference = largest(&(matrix.row(row) - recorded_matrix.row(row)));
                     let tolerance = 1e-6 + 2.0 * f64::EPSILON * value.abs() / eps;
                     assert!(difference <= tolerance, "{name}: {key}, row {row} differs by {difference:e}");
                 }
-                println!("{name} {key}: {:.1e}", largest(&(matrix - theirs)));
+                println!("{name} {key}: {:.1e}", largest(&(matrix - recorded_matrix)));
             }
             let fewer = transition_fd(&model, &data, &FiniteDifferences { sensors: false, ..how }).unwrap();
             assert_eq!((fewer.c.nrows(), fewer.d.nrows()), (0, 0));
-            assert_eq!((fewer.a, fewer.b), (ours.a, ours.b));
+            assert_eq!((fewer.a, fewer.b), (computed.a, computed.b));
         }
         assert!(data == before, "the data of {name} have changed");
     }
@@ -155,14 +157,14 @@ fn a_mass_on_a_spring_with_a_damper() {
     );
     let b = DMatrix::from_row_slice(3, 2, &[h * h * gear / m, 0.0, h * gear / m, 0.0, 0.0, h / tau]);
     let all = FiniteDifferences { sensors: true, ..FiniteDifferences::default() };
-    let ours = transition_fd(&model, &data, &all).unwrap();
-    near(&ours.a, &a, 1e-9, "A");
-    near(&ours.b, &b, 1e-9, "B");
-    near(&ours.c, &DMatrix::from_row_slice(2, 3, &[1.0, 0.0, 0.0, 0.0, 0.0, 0.0]), 1e-9, "C");
-    near(&ours.d, &DMatrix::from_row_slice(2, 2, &[0.0, 0.0, 1.0, 0.0]), 1e-9, "D");
+    let computed = transition_fd(&model, &data, &all).unwrap();
+    near(&computed.a, &a, 1e-9, "A");
+    near(&computed.b, &b, 1e-9, "B");
+    near(&computed.c, &DMatrix::from_row_slice(2, 3, &[1.0, 0.0, 0.0, 0.0, 0.0, 0.0]), 1e-9, "C");
+    near(&computed.d, &DMatrix::from_row_slice(2, 2, &[0.0, 0.0, 1.0, 0.0]), 1e-9, "D");
     // The map is linear: the matrices give the next state.
     let state = |d: &Data| DVector::from_vec(vec![d.qpos[0], d.qvel[0], d.act[0]]);
-    let expected = &ours.a * state(&data) + &ours.b * data.field_vector("ctrl").unwrap();
+    let expected = &computed.a * state(&data) + &computed.b * data.field_vector("ctrl").unwrap();
     core::step(&model, &mut data).unwrap();
     assert!(largest(&(expected - state(&data))) < 1e-9);
 }

@@ -185,12 +185,12 @@ impl<'s> Tokens<'s> {
 
     /// The collection whose names are valid for the argument at a token, whether or not the argument has been typed yet.
     pub(crate) fn collection_at(&self, i: usize) -> Option<CollectionId> {
-        let (mut depth, mut argument, mut at) = (0usize, 0usize, i);
+        let (mut depth, mut argument, mut index) = (0usize, 0usize, i);
         let open = loop {
-            at = at.checked_sub(1)?;
-            match self.kind(at)? {
+            index = index.checked_sub(1)?;
+            match self.kind(index)? {
                 TokenKind::Symbol(")" | "]" | "}") => depth += 1,
-                TokenKind::Symbol("(") if depth == 0 => break at,
+                TokenKind::Symbol("(") if depth == 0 => break index,
                 TokenKind::Symbol("(" | "[" | "{") => depth = depth.checked_sub(1)?,
                 TokenKind::Symbol(",") if depth == 0 => argument += 1,
                 _ => {}
@@ -213,33 +213,33 @@ impl<'s> Tokens<'s> {
 
     fn meaning_within(&self, end: usize, aliases: usize) -> Option<(PathMeaning, usize)> {
         let mut links = Vec::new();
-        let mut at = end;
+        let mut index = end;
         loop {
-            at = at.checked_sub(1)?;
+            index = index.checked_sub(1)?;
             if links.len() > MAX_LINKS {
                 return None;
             }
-            match self.kind(at)? {
+            match self.kind(index)? {
                 TokenKind::Symbol(close @ (")" | "]")) => {
-                    let open = self.opening(at)?;
+                    let open = self.opening(index)?;
                     links.push(if *close == ")" {
-                        PathLink::Call(open, at)
+                        PathLink::Call(open, index)
                     } else {
-                        PathLink::Index(open, at)
+                        PathLink::Index(open, index)
                     });
-                    at = open;
+                    index = open;
                 }
-                TokenKind::Word(name) => match at.checked_sub(1).and_then(|before| self.kind(before)) {
+                TokenKind::Word(name) => match index.checked_sub(1).and_then(|before| self.kind(before)) {
                     Some(TokenKind::Symbol("." | "?.")) => {
                         links.push(PathLink::Member(name));
-                        at -= 1;
+                        index -= 1;
                     }
                     _ => {
-                        let mut meaning = self.root(name, at, aliases)?;
+                        let mut meaning = self.root(name, index, aliases)?;
                         for link in links.iter().rev() {
                             meaning = self.follow(&meaning, link)?;
                         }
-                        return Some((meaning, at));
+                        return Some((meaning, index));
                     }
                 },
                 _ => return None,
@@ -250,21 +250,21 @@ impl<'s> Tokens<'s> {
     /// The opening bracket that matches a closing bracket.
     fn opening(&self, close: usize) -> Option<usize> {
         let mut depth = 0usize;
-        for at in (0..=close).rev() {
-            match self.kind(at)? {
+        for index in (0..=close).rev() {
+            match self.kind(index)? {
                 TokenKind::Symbol(")" | "]" | "}") => depth += 1,
                 TokenKind::Symbol("(" | "[" | "{") => depth = depth.checked_sub(1)?,
                 _ => {}
             }
             if depth == 0 {
-                return Some(at);
+                return Some(index);
             }
         }
         None
     }
 
-    fn root(&self, name: &str, at: usize, aliases: usize) -> Option<PathMeaning> {
-        if let Some(end) = self.declared(name, at) {
+    fn root(&self, name: &str, index: usize, aliases: usize) -> Option<PathMeaning> {
+        if let Some(end) = self.declared(name, index) {
             return self.meaning_within(end, aliases.checked_sub(1)?).map(|(meaning, _)| meaning);
         }
         match name {
@@ -305,14 +305,14 @@ impl<'s> Tokens<'s> {
 
     /// The token at which the chain that ends before token `end` begins.
     fn begin(&self, end: usize) -> Option<usize> {
-        let mut at = end;
+        let mut index = end;
         loop {
-            at = at.checked_sub(1)?;
-            match self.kind(at)? {
-                TokenKind::Symbol(")" | "]") => at = self.opening(at)?,
-                TokenKind::Word(_) => match at.checked_sub(1).and_then(|before| self.kind(before)) {
-                    Some(TokenKind::Symbol("." | "?.")) => at -= 1,
-                    _ => return Some(at),
+            index = index.checked_sub(1)?;
+            match self.kind(index)? {
+                TokenKind::Symbol(")" | "]") => index = self.opening(index)?,
+                TokenKind::Word(_) => match index.checked_sub(1).and_then(|before| self.kind(before)) {
+                    Some(TokenKind::Symbol("." | "?.")) => index -= 1,
+                    _ => return Some(index),
                 },
                 _ => return None,
             }

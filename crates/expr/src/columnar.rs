@@ -197,7 +197,7 @@ impl Columnar {
         recording: &Recording,
         start: usize,
     ) {
-        let column = |at: u32| &before[at as usize];
+        let column = |step: u32| &before[step as usize];
         match self.formula.steps[i] {
             FormulaStep::Constant(_) | FormulaStep::Input(_) => {}
             FormulaStep::Load(..) => {
@@ -346,10 +346,10 @@ mod tests {
         let mut both = Recording::new();
         both.columns(&time).unwrap().unwrap();
         assert_eq!(both.columns(&foreign).unwrap_err(), Foreign::Identity);
-        let mut theirs = Recording::new();
-        theirs.columns(&foreign).unwrap().unwrap();
-        theirs.sample(&OtherWorld(World::new())).unwrap();
-        assert_eq!(of_height.evaluate(&theirs), Err(Foreign::Identity));
+        let mut foreign_recording = Recording::new();
+        foreign_recording.columns(&foreign).unwrap().unwrap();
+        foreign_recording.sample(&OtherWorld(World::new())).unwrap();
+        assert_eq!(of_height.evaluate(&foreign_recording), Err(Foreign::Identity));
     }
 
     #[test]

@@ -118,7 +118,7 @@ fn begins_statement(all: &Tokens<'_>, first: usize, before: &str) -> bool {
         Some(_) => all.is_first_of_line(first),
         None => before.trim_end_matches([' ', '\t']).ends_with(['\n', '\r']),
     };
-    let previous = first.checked_sub(1).and_then(|at| all.kind(at));
+    let previous = first.checked_sub(1).and_then(|index| all.kind(index));
     after_line
         || matches!(
             previous,
@@ -136,10 +136,10 @@ pub(crate) enum OpenConstruct {
 
 pub(crate) fn unclosed(text: &str) -> OpenConstruct {
     let (mut open, mut chars) = (OpenConstruct::Nothing, text.char_indices().peekable());
-    while let Some((at, c)) = chars.next() {
+    while let Some((offset, c)) = chars.next() {
         let next = chars.peek().map(|(_, c)| *c);
         open = match (open, c) {
-            (OpenConstruct::Nothing, '\'' | '"' | '`') => OpenConstruct::Text(at),
+            (OpenConstruct::Nothing, '\'' | '"' | '`') => OpenConstruct::Text(offset),
             (OpenConstruct::Nothing, '/') if next == Some('/') => {
                 // A comment extends to the end of the line.
                 match chars.by_ref().find(|(_, c)| *c == '\n') {
@@ -148,9 +148,9 @@ pub(crate) fn unclosed(text: &str) -> OpenConstruct {
                 }
             }
             (OpenConstruct::Nothing, '/') if next == Some('*') => {
-                match text.get(at + 2..).and_then(|rest| rest.find("*/")) {
+                match text.get(offset + 2..).and_then(|rest| rest.find("*/")) {
                     Some(length) => {
-                        while chars.next_if(|(i, _)| *i < at + 2 + length + 2).is_some() {}
+                        while chars.next_if(|(i, _)| *i < offset + 2 + length + 2).is_some() {}
                         OpenConstruct::Nothing
                     }
                     None => return OpenConstruct::Comment,

@@ -31,7 +31,7 @@ pub enum Measure {
     /// A literal number, which may be a quantity of any dimension.
     Anything,
     /// This dimension.
-    Known(Dimension),
+    Dimension(Dimension),
     /// No information.
     #[default]
     Unknown,
@@ -45,9 +45,9 @@ impl Dimension {
     pub const RADIAN: Dimension = Dimension::base(ANGLE);
 
     /// The dimension of a base unit.
-    pub const fn base(at: usize) -> Dimension {
+    pub const fn base(unit: usize) -> Dimension {
         let mut powers = [0; BASES];
-        powers[at] = SIXTHS;
+        powers[unit] = SIXTHS;
         Dimension { powers, factor: 1.0 }
     }
 
@@ -125,16 +125,18 @@ impl Measure {
     /// A dimensionless number with an unknown factor, from which nothing can be concluded: a sine may be a
     /// factor of an implied 1 m.
     pub(crate) const UNCERTAIN_FACTOR: Measure =
-        Measure::Known(Dimension { powers: [0; BASES], factor: f64::NAN });
+        Measure::Dimension(Dimension { powers: [0; BASES], factor: f64::NAN });
 
     /// A number without a unit.
-    pub(crate) const NUMBER: Measure = Measure::Known(Dimension::NUMBER);
+    pub(crate) const NUMBER: Measure = Measure::Dimension(Dimension::NUMBER);
 
     /// The measure of a value that has one of two measures.
     pub fn or(self, other: Measure) -> Measure {
         match (self, other) {
             (Measure::Anything, one) | (one, Measure::Anything) => one,
-            (Measure::Known(a), Measure::Known(b)) if a.agrees(&b) => Measure::Known(joined(a, b)),
+            (Measure::Dimension(a), Measure::Dimension(b)) if a.agrees(&b) => {
+                Measure::Dimension(joined(a, b))
+            }
             _ => Measure::Unknown,
         }
     }
@@ -142,11 +144,13 @@ impl Measure {
     /// The measure of a sum, a difference or a remainder. A literal factor may have a unit, so that its product proves nothing.
     pub(crate) fn sum(self, other: Measure) -> Measure {
         match (self, other) {
-            (Measure::Known(a), Measure::Known(b)) if !a.agrees(&b) => match (a.is_exact(), b.is_exact()) {
-                (true, false) => self,
-                (false, true) => other,
-                _ => Measure::Unknown,
-            },
+            (Measure::Dimension(a), Measure::Dimension(b)) if !a.agrees(&b) => {
+                match (a.is_exact(), b.is_exact()) {
+                    (true, false) => self,
+                    (false, true) => other,
+                    _ => Measure::Unknown,
+                }
+            }
             _ => self.or(other),
         }
     }
@@ -154,7 +158,7 @@ impl Measure {
     /// Whether a sum of both is certainly wrong.
     pub(crate) fn clashes(self, other: Measure) -> bool {
         match (self, other) {
-            (Measure::Known(a), Measure::Known(b)) => a.is_exact() && b.is_exact() && !a.agrees(&b),
+            (Measure::Dimension(a), Measure::Dimension(b)) => a.is_exact() && b.is_exact() && !a.agrees(&b),
             _ => false,
         }
     }
@@ -163,11 +167,13 @@ impl Measure {
     pub(crate) fn product(self, other: Measure, number: Option<f64>) -> Measure {
         match (self, other) {
             (Measure::Anything, Measure::Anything) => Measure::Anything,
-            (Measure::Anything, Measure::Known(d)) | (Measure::Known(d), Measure::Anything) => {
+            (Measure::Anything, Measure::Dimension(d)) | (Measure::Dimension(d), Measure::Anything) => {
                 let factor = number.filter(|x| *x != 0.0 && x.is_finite()).unwrap_or(f64::NAN);
-                Measure::Known(d.times(factor))
+                Measure::Dimension(d.times(factor))
             }
-            (Measure::Known(a), Measure::Known(b)) => a.product(b).map_or(Measure::Unknown, Measure::Known),
+            (Measure::Dimension(a), Measure::Dimension(b)) => {
+                a.product(b).map_or(Measure::Unknown, Measure::Dimension)
+            }
             _ => Measure::Unknown,
         }
     }
@@ -175,7 +181,7 @@ impl Measure {
     /// Whether both measures are identical.
     pub(crate) fn is(self, other: Measure) -> bool {
         match (self, other) {
-            (Measure::Known(a), Measure::Known(b)) => {
+            (Measure::Dimension(a), Measure::Dimension(b)) => {
                 a.powers == b.powers && (a.factor == b.factor || a.factor.is_nan() && b.factor.is_nan())
             }
             _ => self == other,
@@ -185,7 +191,7 @@ impl Measure {
     /// The measure of a power with a known exponent.
     pub(crate) fn power(self, exponent: f64) -> Measure {
         match self {
-            Measure::Known(d) => d.power(exponent).map_or(Measure::Unknown, Measure::Known),
+            Measure::Dimension(d) => d.power(exponent).map_or(Measure::Unknown, Measure::Dimension),
             other => other,
         }
     }
@@ -206,7 +212,7 @@ mod tests {
     const S: Dimension = Dimension::base(2);
 
     fn certain(d: Dimension) -> Measure {
-        Measure::Known(d)
+        Measure::Dimension(d)
     }
 
     #[test]
@@ -228,7 +234,7 @@ mod tests {
         assert_eq!(speed.sum(certain(S)), Measure::Unknown);
         assert_eq!(certain(M).product(Measure::Anything, Some(1000.0)), certain(M.times(1000.0)));
         // A value in either metres or millimetres has no known factor.
-        let Measure::Known(mixed) = certain(M).or(certain(M.times(1000.0))) else { panic!() };
+        let Measure::Dimension(mixed) = certain(M).or(certain(M.times(1000.0))) else { panic!() };
         assert!(mixed.factor.is_nan());
     }
 

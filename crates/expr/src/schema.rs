@@ -164,9 +164,9 @@ impl ResultDimension {
     pub(crate) fn resolve(self, argument: impl Fn(usize) -> Measure) -> Measure {
         match self {
             ResultDimension::Unknown => Measure::Unknown,
-            ResultDimension::This(dimension) => Measure::Known(dimension),
+            ResultDimension::This(dimension) => Measure::Dimension(dimension),
             ResultDimension::Argument(i, times) => match argument(i) {
-                Measure::Known(d) => d.product(times).map_or(Measure::Unknown, Measure::Known),
+                Measure::Dimension(d) => d.product(times).map_or(Measure::Unknown, Measure::Dimension),
                 // A literal number may have any dimension, and so may its product.
                 other => other,
             },

@@ -40,10 +40,10 @@ pub fn signature_at(schema: &dyn Schema, source: &str, offset: usize) -> Option<
         OpenConstruct::Nothing => offset,
     };
     let all = Tokens::read(schema, source.get(..end)?);
-    let mut at = all.len();
+    let mut position = all.len();
     for _ in 0..MAX_BRACKETS {
-        let (open, argument) = opening_before(&all, at)?;
-        at = open;
+        let (open, argument) = opening_before(&all, position)?;
+        position = open;
         let before_open = open.checked_sub(1).and_then(|i| all.kind(i));
         match (all.kind(open)?, before_open) {
             // `if (`, `for (`: statements are not calls.
@@ -67,9 +67,9 @@ pub fn signature_at(schema: &dyn Schema, source: &str, offset: usize) -> Option<
 pub fn is_in_aggregate(schema: &dyn Schema, source: &str, offset: usize) -> bool {
     let before = source.get(..labspec_finding::floor(source, offset)).unwrap_or("");
     let all = Tokens::read(schema, before);
-    let mut at = all.len();
-    while let Some((open, _)) = opening_before(&all, at) {
-        at = open;
+    let mut position = all.len();
+    while let Some((open, _)) = opening_before(&all, position) {
+        position = open;
         if let Some((PathMeaning::Function(id), _)) = all.meaning(open)
             && schema.function(id).aggregate
         {
@@ -88,12 +88,12 @@ pub fn is_in_brackets(source: &str, offset: usize) -> bool {
 
 /// The innermost bracket that is open before a token, and the number of commas between its parts.
 fn opening_before(all: &Tokens<'_>, end: usize) -> Option<(usize, usize)> {
-    let (mut depth, mut commas, mut at) = (0usize, 0, end);
+    let (mut depth, mut commas, mut index) = (0usize, 0, end);
     loop {
-        at = at.checked_sub(1)?;
-        match all.kind(at)? {
+        index = index.checked_sub(1)?;
+        match all.kind(index)? {
             TokenKind::Symbol(")" | "]" | "}") => depth += 1,
-            TokenKind::Symbol("(" | "[" | "{") if depth == 0 => return Some((at, commas)),
+            TokenKind::Symbol("(" | "[" | "{") if depth == 0 => return Some((index, commas)),
             TokenKind::Symbol("(" | "[" | "{") => depth -= 1,
             TokenKind::Symbol(",") if depth == 0 => commas += 1,
             _ => {}
@@ -153,14 +153,14 @@ fn called(schema: &dyn Schema, all: &Tokens<'_>, open: usize) -> Option<Function
 
 /// A function of the language: of `Math`, a global one, a free one such as `Array.from`, or a method.
 fn language_function(all: &Tokens<'_>, open: usize) -> Option<FunctionShape> {
-    let at = open.checked_sub(1)?;
-    let Some(TokenKind::Word(name)) = all.kind(at) else { return None };
-    let point = at.checked_sub(1).and_then(|i| all.kind(i));
+    let index = open.checked_sub(1)?;
+    let Some(TokenKind::Word(name)) = all.kind(index) else { return None };
+    let point = index.checked_sub(1).and_then(|i| all.kind(i));
     if !matches!(point, Some(TokenKind::Symbol("." | "?."))) {
         let global = math::global(name).map(of_math);
         return global.or_else(|| natives::find_function(name).map(|f| of_native(f.row())));
     }
-    let receiver = at.checked_sub(2)?;
+    let receiver = index.checked_sub(2)?;
     match (all.meaning(receiver + 1).map(|(meaning, _)| meaning), all.kind(receiver)) {
         (Some(PathMeaning::Math), _) => math::function(name).map(of_math),
         (Some(PathMeaning::Field(_)), _) => method(name, Type::View),
@@ -210,8 +210,10 @@ mod tests {
 
     /// The label with its active parameter in brackets.
     fn described(marked: &str) -> String {
-        let at = marked.find('|').unwrap();
-        let Some(found) = signature_at(&Mock, &marked.replacen('|', "", 1), at) else { return String::new() };
+        let offset = marked.find('|').unwrap();
+        let Some(found) = signature_at(&Mock, &marked.replacen('|', "", 1), offset) else {
+            return String::new();
+        };
         let mut label = found.label;
         if let Some(span) = found.active.and_then(|i| found.params.get(i).copied()) {
             label.replace_range(span.end..span.end, "]");

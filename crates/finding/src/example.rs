@@ -73,8 +73,8 @@ impl Example {
     pub fn bytes(&self) -> Vec<u8> {
         let mut bytes = self.written();
         for mark in MARKS {
-            while let Some(at) = find(&bytes, mark) {
-                bytes.drain(at..at + mark.len());
+            while let Some(start) = find(&bytes, mark) {
+                bytes.drain(start..start + mark.len());
             }
         }
         bytes

@@ -191,8 +191,8 @@ impl fmt::Display for Finding {
         if !self.path.is_empty() {
             write!(f, "{}:", self.path)?;
         }
-        if let Some(at) = self.position {
-            write!(f, "{}:{}: ", at.line, at.column)?;
+        if let Some(position) = self.position {
+            write!(f, "{}:{}: ", position.line, position.column)?;
         } else if !self.path.is_empty() {
             f.write_str(" ")?;
         }
@@ -243,7 +243,7 @@ mod tests {
 
     #[test]
     fn findings_are_sorted_by_place_without_duplicates() {
-        let one = |at: usize| Finding::new(&RULE, at..at + 1, "x");
+        let one = |offset: usize| Finding::new(&RULE, offset..offset + 1, "x");
         let mut all = vec![one(5), one(1), one(5)];
         sort(&mut all);
         assert_eq!(all, vec![one(1), one(5)]);

@@ -101,8 +101,8 @@ impl Lines {
     /// Finds the lines of a text. In messages for users, only `\n` ends a line.
     pub fn new(text: &str) -> Lines {
         let after = text.match_indices('\n').map(|(i, _)| i.saturating_add(1));
-        let behind = text.match_indices('\r').map(|(at, _)| at.saturating_add(1));
-        let returns = behind.filter(|&at| text.as_bytes().get(at) != Some(&b'\n')).collect();
+        let behind = text.match_indices('\r').map(|(offset, _)| offset.saturating_add(1));
+        let returns = behind.filter(|&offset| text.as_bytes().get(offset) != Some(&b'\n')).collect();
         Lines { starts: std::iter::once(0).chain(after).collect(), returns }
     }
 
@@ -176,12 +176,12 @@ mod tests {
         let chars: Vec<(usize, char)> = text.char_indices().collect();
         let (mut line, mut units): (usize, Vec<u16>) = (0, Vec::new());
         let mut place = EditorPosition { line: 0, character: 0 };
-        for (i, &(at, c)) in chars.iter().enumerate() {
-            if offset < at + c.len_utf8() {
+        for (i, &(start, c)) in chars.iter().enumerate() {
+            if offset < start + c.len_utf8() {
                 return place;
             }
             let next = chars.get(i + 1).map(|&(_, c)| c);
-            if at == 0 && c == '\u{feff}' {
+            if start == 0 && c == '\u{feff}' {
                 continue;
             }
             if c == '\r' && next == Some('\n') {
@@ -213,13 +213,13 @@ mod tests {
     fn editor_positions_are_correct() {
         let text = "\u{feff}ä\tx\r\n𝄞b👩‍🔬c\rd\n";
         let lines = Lines::new(text);
-        let at = |what: char| {
+        let position_of = |what: char| {
             let place = lines.editor(text, text.find(what).unwrap());
             (place.line, place.character)
         };
-        assert_eq!([at('ä'), at('\t'), at('x')], [(0, 0), (0, 1), (0, 2)]);
+        assert_eq!([position_of('ä'), position_of('\t'), position_of('x')], [(0, 0), (0, 1), (0, 2)]);
         // The clef has two units, the emoji of a scientist five.
-        assert_eq!([at('b'), at('c'), at('d')], [(1, 2), (1, 8), (2, 0)]);
+        assert_eq!([position_of('b'), position_of('c'), position_of('d')], [(1, 2), (1, 8), (2, 0)]);
         assert_eq!(lines.editor(text, 1000), EditorPosition { line: 3, character: 0 });
     }
 

@@ -128,7 +128,8 @@ fn json_ranges(file: &SourceFile) -> Vec<Range<usize>> {
         return vec![trimmed(0..text.len())];
     }
     let scan = markdown::scan(file);
-    let at_line_start = |at: usize| at == 0 || text.get(..at).is_some_and(|before| before.ends_with('\n'));
+    let at_line_start =
+        |offset: usize| offset == 0 || text.get(..offset).is_some_and(|before| before.ends_with('\n'));
     let bodies = scan.blocks.iter().filter(|block| !matches!(block.kind, BlockKind::Code { .. })).filter_map(
         |block| {
             let (body, lines) = (block.body.span(), 0..block.body.value.len());

@@ -88,7 +88,8 @@ pub enum State {
     /// Skipped in this check: it was not requested, or it is an unknown widget.
     Skipped,
     /// False or unchecked, as recorded in the baseline.
-    Known,
+    #[serde(rename = "Known")]
+    Baselined,
     /// Not claimed, so nothing was checked.
     NotClaimed,
 }
@@ -101,7 +102,7 @@ impl State {
             State::False => "false",
             State::Unchecked => "unchecked",
             State::Skipped => "left out",
-            State::Known => "known",
+            State::Baselined => "known",
             State::NotClaimed => "not claimed",
         }
     }
@@ -167,7 +168,7 @@ pub enum Outcome {
     /// Everything that was checked is true, and some claims were left out.
     Partial,
     /// All false and unchecked claims are in the baseline; the others are true.
-    Known,
+    Baselined,
     /// There was nothing to check.
     Nothing,
 }
@@ -179,7 +180,7 @@ impl Outcome {
             Outcome::Clean => "clean",
             Outcome::Findings => "findings",
             Outcome::Partial => "partial",
-            Outcome::Known => "known",
+            Outcome::Baselined => "known",
             Outcome::Nothing => "nothing",
         }
     }
@@ -217,7 +218,7 @@ impl Ledger {
                 State::False => &mut count.wrong,
                 State::Unchecked => &mut count.unchecked,
                 State::Skipped => &mut count.skipped,
-                State::Known => &mut count.baselined,
+                State::Baselined => &mut count.baselined,
                 State::NotClaimed => &mut count.not_claimed,
             } += 1;
         }
@@ -236,8 +237,8 @@ impl Ledger {
             Outcome::Findings
         } else if self.entries.iter().any(|e| e.state == State::Skipped) {
             Outcome::Partial
-        } else if self.entries.iter().any(|e| e.state == State::Known) {
-            Outcome::Known
+        } else if self.entries.iter().any(|e| e.state == State::Baselined) {
+            Outcome::Baselined
         } else if self.entries.iter().any(good) {
             Outcome::Clean
         } else {
@@ -280,7 +281,7 @@ impl Ledger {
                 false => "not everything was checked".into(),
             });
         }
-        if any(State::Known) {
+        if any(State::Baselined) {
             parts.push(match parts.is_empty() {
                 true => "no problems outside the baseline".into(),
                 false => format!("{} already in the baseline", self.baselined()),
@@ -299,7 +300,7 @@ impl Ledger {
     }
 
     fn baselined(&self) -> usize {
-        self.entries.iter().filter(|e| e.state == State::Known).count()
+        self.entries.iter().filter(|e| e.state == State::Baselined).count()
     }
 
     /// The counts in a sentence: `2 files, 4 labs run, 3 answers verified, 2 without a check, 29 quoted numbers verified`.
@@ -342,10 +343,10 @@ impl Ledger {
     }
 
     /// Marks unchecked entries as baselined, by their indexes.
-    pub fn mark_baselined_at(&mut self, at: &BTreeSet<usize>) {
+    pub fn mark_baselined_at(&mut self, indexes: &BTreeSet<usize>) {
         for (i, entry) in self.entries.iter_mut().enumerate() {
-            if entry.state == State::Unchecked && at.contains(&i) {
-                (entry.state, entry.word) = (State::Known, "known");
+            if entry.state == State::Unchecked && indexes.contains(&i) {
+                (entry.state, entry.word) = (State::Baselined, "known");
             }
         }
     }
@@ -356,7 +357,7 @@ impl Ledger {
             let bad = matches!(entry.state, State::False | State::Unchecked);
             let file = entry.subject == Subject::File && matches!(entry.state, State::True(_));
             if (bad || file) && baselined(entry) {
-                (entry.state, entry.word) = (State::Known, "known");
+                (entry.state, entry.word) = (State::Baselined, "known");
             }
         }
     }
@@ -452,7 +453,7 @@ mod tests {
             (State::False, "is false", "are false"),
             (State::Unchecked, "1 claim could not be checked", "2 claims could not be checked"),
             (State::Skipped, "not everything was", "not everything was"),
-            (State::Known, "the baseline", "the baseline"),
+            (State::Baselined, "the baseline", "the baseline"),
         ];
         for code in 0..3usize.pow(5) {
             let count = |digit: u32| code / 3usize.pow(digit) % 3;

@@ -70,8 +70,8 @@ impl Missing {
             for j in i + 1..levels.len() {
                 for a in 0..levels[i] {
                     for b in 0..levels[j] {
-                        let at = all.place((i, a), (j, b));
-                        all.open[at] = true;
+                        let index = all.place((i, a), (j, b));
+                        all.open[index] = true;
                         all.count += 1;
                     }
                 }
@@ -90,11 +90,11 @@ impl Missing {
     }
 
     /// The factor and the level at an index.
-    fn level(&self, at: usize) -> (usize, usize) {
-        let factor = self.start.partition_point(|s| *s <= at) - 1;
+    fn level(&self, index: usize) -> (usize, usize) {
+        let factor = self.start.partition_point(|s| *s <= index) - 1;
         // A factor without levels has the same start index as the next one.
         let factor = (0..=factor).rev().find(|f| self.levels[*f] > 0).unwrap_or(factor);
-        (factor, at - self.start[factor])
+        (factor, index - self.start[factor])
     }
 
     fn first(&mut self) -> Option<[(usize, usize); 2]> {
@@ -115,8 +115,8 @@ impl Missing {
     fn remove_covered(&mut self, row: &[usize]) {
         for (i, a) in row.iter().enumerate() {
             for (j, b) in row.iter().enumerate().skip(i + 1) {
-                let at = self.place((i, *a), (j, *b));
-                self.count -= usize::from(std::mem::take(&mut self.open[at]));
+                let index = self.place((i, *a), (j, *b));
+                self.count -= usize::from(std::mem::take(&mut self.open[index]));
             }
         }
     }

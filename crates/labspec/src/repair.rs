@@ -226,19 +226,19 @@ fn attempt(
     judge: &RepairJudge<'_>,
 ) -> Option<TextState> {
     let mut codes: BTreeMap<&str, usize> = BTreeMap::new();
-    let (mut text, mut at) = (String::with_capacity(old.len()), 0);
+    let (mut text, mut offset) = (String::with_capacity(old.len()), 0);
     let made = fixes.iter().enumerate().filter(|(i, _)| part.contains(i) || selected.contains(i));
     for (i, (code, fix)) in made {
         // A repair whose span is outside of the text fails.
         old.get(fix.span.clone())?;
-        text.push_str(old.get(at..fix.span.start)?);
+        text.push_str(old.get(offset..fix.span.start)?);
         text.push_str(&fix.text);
-        at = fix.span.end;
+        offset = fix.span.end;
         if part.contains(&i) {
             *codes.entry(code).or_default() += 1;
         }
     }
-    text.push_str(old.get(at..)?);
+    text.push_str(old.get(offset..)?);
     let next = TextState::new((judge.look)(&text));
     let (was, is) = (&current.looked, &next.looked);
     let gone = codes.iter().all(|(code, n)| is.count_of_rule(code) + n <= was.count_of_rule(code));
@@ -258,8 +258,11 @@ mod tests {
     /// Every `x` is an error and is repaired to `o`; an `o` after a `!` is worse.
     fn find_wrong(text: &str) -> CheckedText {
         let wrong = text.match_indices('x');
-        let mut findings: Vec<Finding> =
-            wrong.map(|(at, _)| Finding::new(UNKNOWN_KEY, at..at + 1, "x").fix(at..at + 1, "o")).collect();
+        let mut findings: Vec<Finding> = wrong
+            .map(|(offset, _)| {
+                Finding::new(UNKNOWN_KEY, offset..offset + 1, "x").fix(offset..offset + 1, "o")
+            })
+            .collect();
         let worse = text.match_indices("!o").count();
         findings.extend((0..worse).flat_map(|_| {
             [Finding::error(UNKNOWN_KEY, 0..0, "worse"), Finding::error(UNKNOWN_KEY, 0..0, "worse")]

@@ -20,9 +20,9 @@ pub(super) fn range(file: &SourceFile, span: &Range<usize>) -> lsp_types::Range 
 
 /// The position of a byte.
 pub(super) fn position(file: &SourceFile, byte: usize) -> Position {
-    let at = file.editor_position(byte);
+    let position = file.editor_position(byte);
     let number = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
-    Position { line: number(at.line), character: number(at.character) }
+    Position { line: number(position.line), character: number(position.character) }
 }
 
 /// The byte of a position. A position past the end of a line is the end of the line, and one past the last
@@ -45,14 +45,14 @@ pub(super) fn byte_offset(text: &str, position: Position) -> usize {
         start = '\u{feff}'.len_utf8();
     }
     let (character, mut units) = (position.character as usize, 0);
-    for (at, c) in text.get(start..).unwrap_or("").char_indices() {
+    for (offset, c) in text.get(start..).unwrap_or("").char_indices() {
         if units >= character || matches!(c, '\n' | '\r') {
-            return start + at;
+            return start + offset;
         }
         units += c.len_utf16();
         if units > character {
             // A position inside a surrogate pair is the beginning of the character.
-            return start + at;
+            return start + offset;
         }
     }
     text.len()
@@ -160,11 +160,11 @@ mod tests {
         #[test]
         fn positions_come_back(text in "[ä𝄞\ta \r\n]{0,24}") {
             let file = SourceFile::new("a.md", text.as_str());
-            for (at, _) in text.char_indices() {
-                let position = position(&file, at);
+            for (offset, _) in text.char_indices() {
+                let position = position(&file, offset);
                 let back = byte_offset(&text, position);
                 // Between the two halves of a line break, the position is the end of the line.
-                prop_assert!(back == at || text[..at].ends_with('\r') && back + 1 == at, "{at} {back} {position:?}");
+                prop_assert!(back == offset || text[..offset].ends_with('\r') && back + 1 == offset, "{offset} {back} {position:?}");
             }
         }
 

@@ -52,15 +52,15 @@ mod tests {
     fn changes_follow_each_other() {
         let uri = "file:///a.md".parse().unwrap();
         let mut document = OpenDocument::new(uri, "/a.md".into(), "a𝄞b\r\ncd\n", 1);
-        let at = |line, from, to, text: &str| TextDocumentContentChangeEvent {
+        let change_of = |line, from, to, text: &str| TextDocumentContentChangeEvent {
             range: Some(Range { start: Position::new(line, from), end: Position::new(line, to) }),
             range_length: None,
             text: text.to_string(),
         };
-        document.change(&[at(0, 3, 4, "ä"), at(1, 1, 99, "x"), at(9, 9, 9, "end")], 2);
+        document.change(&[change_of(0, 3, 4, "ä"), change_of(1, 1, 99, "x"), change_of(9, 9, 9, "end")], 2);
         assert_eq!(document.content.file.text(), "a𝄞ä\r\ncx\nend");
-        let whole = |text: &str| TextDocumentContentChangeEvent { range: None, ..at(0, 0, 0, text) };
-        document.change(&[whole("new"), at(0, 1, 2, "o")], 3);
+        let whole = |text: &str| TextDocumentContentChangeEvent { range: None, ..change_of(0, 0, 0, text) };
+        document.change(&[whole("new"), change_of(0, 1, 2, "o")], 3);
         assert_eq!(document.content.file.text(), "now");
     }
 }

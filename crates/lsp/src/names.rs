@@ -223,9 +223,9 @@ fn in_lesson(name: &QualifiedName, lesson: &Lesson, path: &Path, models: &Models
     let file = &lesson.file;
     let about = |lab: &Lab| model_location(lab, path, models).is_some_and(|location| location == name.model);
     let mut occurrence = |text: &Text, span: Range<usize>| {
-        let at = text.span_of(span.clone());
-        let plain = text.map.is_unbroken(span) && file.slice(at.clone()) == name.name;
-        found.all.push(Occurrence { file: file.clone(), span: at, defines: false, plain });
+        let span_in_file = text.span_of(span.clone());
+        let plain = text.map.is_unbroken(span) && file.slice(span_in_file.clone()) == name.name;
+        found.all.push(Occurrence { file: file.clone(), span: span_in_file, defines: false, plain });
     };
     let mut ambiguities = Vec::new();
     for piece in code::code_texts(lesson).into_iter().filter(|piece| about(piece.lab)) {

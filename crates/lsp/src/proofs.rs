@@ -83,11 +83,11 @@ fn prove(lesson: &Lesson, models: &Models, numbers: &[Range<usize>]) -> Result<E
     let is_chosen = |s: &Stated| numbers.contains(&s.span);
     let proposals = comments_of(&found, &is_chosen);
     let place = numbers.first().and_then(|span| comment_place(lesson, span.start));
-    let (Some(at), false) = (place, proposals.is_empty()) else {
+    let (Some(offset), false) = (place, proposals.is_empty()) else {
         return Err(describe_origins(&found, numbers));
     };
     let text: String = proposals.iter().map(|verify| comment(lesson, verify)).collect();
-    let edit = Edit { span: at..at, text };
+    let edit = Edit { span: offset..offset, text };
     check_edit(lesson, models, &edit)?;
     Ok(edit)
 }

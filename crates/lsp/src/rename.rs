@@ -39,8 +39,8 @@ pub(super) fn rename(
         ));
     }
     if let Some(escaped) = found.all.iter().find(|occurrence| !occurrence.plain) {
-        let at = describe_position(&escaped.file, escaped.span.start);
-        return Err(format!("{at}: the name is written with escapes here, so nothing was changed"));
+        let position = describe_position(&escaped.file, escaped.span.start);
+        return Err(format!("{position}: the name is written with escapes here, so nothing was changed"));
     }
     let key = |occurrence: &Occurrence| (occurrence.file.path().clone(), occurrence.span.start);
     let mut occurrences: Vec<&Occurrence> = found.all.iter().collect();

@@ -110,37 +110,37 @@ fn initialize(state: &mut ServerState<'_>, setup: ClientSetup) -> Answer<Initial
 }
 
 fn complete_at(state: &mut ServerState<'_>, params: CompletionParams) -> Answer<Vec<CompletionItem>> {
-    let at = params.text_document_position;
-    let byte = byte_at(state, &at)?;
-    let (document, context) = state.document_in_context(&at.text_document.uri).ok_or_else(not_open)?;
+    let position = params.text_document_position;
+    let byte = byte_at(state, &position)?;
+    let (document, context) = state.document_in_context(&position.text_document.uri).ok_or_else(not_open)?;
     Ok(completion_items(document, context, byte))
 }
 
 fn hover_at(state: &mut ServerState<'_>, params: HoverParams) -> Answer<Option<Hover>> {
-    let at = params.text_document_position_params;
-    let byte = byte_at(state, &at)?;
-    let (document, context) = state.document_in_context(&at.text_document.uri).ok_or_else(not_open)?;
+    let position = params.text_document_position_params;
+    let byte = byte_at(state, &position)?;
+    let (document, context) = state.document_in_context(&position.text_document.uri).ok_or_else(not_open)?;
     Ok(hover_at_byte(document, context, byte))
 }
 
 fn sign_at(state: &mut ServerState<'_>, params: SignatureHelpParams) -> Answer<Option<SignatureHelp>> {
-    let at = params.text_document_position_params;
-    let byte = byte_at(state, &at)?;
-    let (document, context) = state.document_in_context(&at.text_document.uri).ok_or_else(not_open)?;
+    let position = params.text_document_position_params;
+    let byte = byte_at(state, &position)?;
+    let (document, context) = state.document_in_context(&position.text_document.uri).ok_or_else(not_open)?;
     Ok(signature_at_byte(document, context, byte))
 }
 
 /// The name at a position, and whether the element gets its name there.
 fn name_at(
     state: &mut ServerState<'_>,
-    at: &TextDocumentPositionParams,
+    position: &TextDocumentPositionParams,
 ) -> Answer<Option<(QualifiedName, bool)>> {
-    let byte = byte_at(state, at)?;
-    let document = open_document(state, &at.text_document)?;
+    let byte = byte_at(state, position)?;
+    let document = open_document(state, &position.text_document)?;
     if names::is_model(document) {
         return Ok(names::name_in_model(&document.content.file, &document.content.path, byte));
     }
-    let (document, context) = state.document_in_context(&at.text_document.uri).ok_or_else(not_open)?;
+    let (document, context) = state.document_in_context(&position.text_document.uri).ok_or_else(not_open)?;
     let name = document
         .content
         .read_lesson(context)
@@ -165,15 +165,15 @@ fn find_definition(
     state: &mut ServerState<'_>,
     params: GotoDefinitionParams,
 ) -> Answer<Option<GotoDefinitionResponse>> {
-    let at = params.text_document_position_params;
-    if let Some((name, defines)) = name_at(state, &at)? {
+    let position = params.text_document_position_params;
+    if let Some((name, defines)) = name_at(state, &position)? {
         // At the definition, the request returns the references instead.
         let found = find_occurrences(state, &name);
         let others = found.all.iter().filter(|occurrence| occurrence.defines != defines);
         return Ok(Some(names::locations(others, &search_scope(state)).into()));
     }
-    let byte = byte_at(state, &at)?;
-    let (document, context) = state.document_in_context(&at.text_document.uri).ok_or_else(not_open)?;
+    let byte = byte_at(state, &position)?;
+    let (document, context) = state.document_in_context(&position.text_document.uri).ok_or_else(not_open)?;
     let path = document
         .content
         .read_lesson(context)
@@ -187,7 +187,7 @@ fn find_definition(
 #[serde(rename_all = "camelCase")]
 struct FindReferencesParams {
     #[serde(flatten)]
-    at: TextDocumentPositionParams,
+    position: TextDocumentPositionParams,
     context: Option<ReferenceContext>,
 }
 
@@ -195,7 +195,7 @@ fn find_references(
     state: &mut ServerState<'_>,
     params: FindReferencesParams,
 ) -> Answer<Option<Vec<Location>>> {
-    let Some((name, _)) = name_at(state, &params.at)? else { return Ok(None) };
+    let Some((name, _)) = name_at(state, &params.position)? else { return Ok(None) };
     let also_definition = params.context.is_none_or(|context| context.include_declaration);
     let found = find_occurrences(state, &name);
     let occurrences = found.all.iter().filter(|occurrence| also_definition || !occurrence.defines);
@@ -204,10 +204,10 @@ fn find_references(
 
 fn prepare_rename(
     state: &mut ServerState<'_>,
-    at: TextDocumentPositionParams,
+    position: TextDocumentPositionParams,
 ) -> Answer<Option<PrepareRenameResponse>> {
-    let Some((name, _)) = name_at(state, &at)? else { return Ok(None) };
-    let document = open_document(state, &at.text_document)?;
+    let Some((name, _)) = name_at(state, &position)? else { return Ok(None) };
+    let document = open_document(state, &position.text_document)?;
     let range = convert::range(&document.content.file, &name.span);
     Ok(Some(PrepareRenameResponse::RangeWithPlaceholder { range, placeholder: name.name }))
 }

@@ -15,8 +15,8 @@ pub(super) fn signature_at_byte(
     byte: usize,
 ) -> Option<SignatureHelp> {
     let found = signature_help(&mut document.content, context, byte)?;
-    let units = |at: usize| {
-        let before = found.label.get(..at).unwrap_or(&found.label);
+    let units = |end: usize| {
+        let before = found.label.get(..end).unwrap_or(&found.label);
         u32::try_from(before.encode_utf16().count()).unwrap_or(u32::MAX)
     };
     let parameter = |span: &Span| ParameterInformation {

@@ -69,8 +69,8 @@ impl Formula {
     }
 
     /// The value of a constant step.
-    pub(crate) fn constant_at(&self, at: StepId) -> Option<f64> {
-        match self.steps.get(at as usize) {
+    pub(crate) fn constant_at(&self, step: StepId) -> Option<f64> {
+        match self.steps.get(step as usize) {
             Some(FormulaStep::Constant(k)) => Some(k.number()),
             _ => None,
         }
@@ -78,12 +78,12 @@ impl Formula {
 
     /// Adds an operation, or returns an identical existing one.
     pub fn step(&mut self, step: FormulaStep) -> StepId {
-        if let Some(at) = self.existing.get(&step) {
-            return *at;
+        if let Some(id) = self.existing.get(&step) {
+            return *id;
         }
-        let at = self.push(step);
-        self.existing.insert(step, at);
-        at
+        let id = self.push(step);
+        self.existing.insert(step, id);
+        id
     }
 
     fn push(&mut self, step: FormulaStep) -> StepId {
@@ -128,14 +128,14 @@ impl Formula {
 
     /// Adds a function of `Math`.
     pub fn math(&mut self, function: math::MathFunction, args: Vec<StepId>) -> StepId {
-        if let Some(at) = self.existing_math.get(&(function, args.clone())) {
-            return *at;
+        if let Some(id) = self.existing_math.get(&(function, args.clone())) {
+            return *id;
         }
         let first = self.args.len() as u32;
         self.args.extend(&args);
-        let at = self.push(FormulaStep::Math(function, first, args.len() as u32));
-        self.existing_math.insert((function, args), at);
-        at
+        let id = self.push(FormulaStep::Math(function, first, args.len() as u32));
+        self.existing_math.insert((function, args), id);
+        id
     }
 
     /// Removes operations that the results do not need, and updates the indexes in `results`. The tables for reuse are cleared.
@@ -144,15 +144,15 @@ impl Formula {
         self.existing_math = BTreeMap::new();
         let Formula { steps, args, .. } = self;
         let mut used = vec![false; steps.len()];
-        let mark = |used: &mut Vec<bool>, at: StepId| {
-            if let Some(place) = used.get_mut(at as usize) {
+        let mark = |used: &mut Vec<bool>, id: StepId| {
+            if let Some(place) = used.get_mut(id as usize) {
                 *place = true;
             }
         };
-        results.iter().for_each(|at| mark(&mut used, *at));
+        results.iter().for_each(|id| mark(&mut used, *id));
         for i in (0..steps.len()).rev() {
             if let (Some(true), Some(mut step)) = (used.get(i), steps.get(i).copied()) {
-                step.each(args, &mut |at| mark(&mut used, *at));
+                step.each(args, &mut |id| mark(&mut used, *id));
             }
         }
         let mut used_count = 0;
@@ -161,7 +161,7 @@ impl Formula {
             used_count.saturating_sub(1)
         };
         let places: Vec<StepId> = used.iter().map(count).collect();
-        let mut moved = |at: &mut StepId| *at = places.get(*at as usize).copied().unwrap_or(*at);
+        let mut moved = |id: &mut StepId| *id = places.get(*id as usize).copied().unwrap_or(*id);
         results.iter_mut().for_each(&mut moved);
         for (step, _) in steps.iter_mut().zip(&used).filter(|(_, used)| **used) {
             step.each(args, &mut moved);

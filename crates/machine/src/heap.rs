@@ -241,15 +241,15 @@ impl Heap {
 
     fn add(&mut self, object: HeapObject, bytes: usize) -> Result<Ref, Full> {
         self.take(size_of::<HeapObject>() + bytes)?;
-        if let Some(at) = self.free.pop() {
-            if let Some(place) = self.objects.get_mut(at as usize) {
+        if let Some(index) = self.free.pop() {
+            if let Some(place) = self.objects.get_mut(index as usize) {
                 *place = object;
             }
-            return Ok(Ref(at));
+            return Ok(Ref(index));
         }
-        let at = u32::try_from(self.objects.len()).map_err(|_| Full)?;
+        let index = u32::try_from(self.objects.len()).map_err(|_| Full)?;
         self.objects.push(object);
-        Ok(Ref(at))
+        Ok(Ref(index))
     }
 
     /// Whether enough memory was allocated since the last collection to make another one worthwhile.
@@ -297,10 +297,10 @@ impl Heap {
             }
         }
         self.free.clear();
-        for (at, (object, reached)) in self.objects.iter_mut().zip(&reached).enumerate() {
+        for (index, (object, reached)) in self.objects.iter_mut().zip(&reached).enumerate() {
             if !reached {
                 *object = HeapObject::Free;
-                self.free.push(at as u32);
+                self.free.push(index as u32);
             }
         }
         self.bytes = bytes;

@@ -114,12 +114,12 @@ impl Watch {
     /// Records a comparison with the result `x`, and returns the result that the program receives.
     pub(crate) fn compared(&mut self, op: BinaryOp, a: f64, b: f64, x: f64) -> f64 {
         let Some(margin) = margin(op, a, b).filter(|_| self.compares) else { return x };
-        let at = self.comparisons.len();
-        if at >= MOST {
+        let index = self.comparisons.len();
+        if index >= MOST {
             return x;
         }
         self.comparisons.push(Comparison { left: a, right: b, margin, holds: x != 0.0 });
-        if self.turned == Some(at) { truth(x == 0.0) } else { x }
+        if self.turned == Some(index) { truth(x == 0.0) } else { x }
     }
 }
 

@@ -32,7 +32,7 @@ enum Scale {
 #[derive(Clone, Debug)]
 pub(super) struct Tick {
     /// 0 at the low end, 1 at the high end.
-    pub(super) at: f64,
+    pub(super) fraction: f64,
     /// The label.
     pub(super) label: Label,
 }
@@ -54,18 +54,18 @@ impl Axis {
     /// The position of a value: 0 at the low end, 1 at the high end, outside this range for values outside. `None` if the axis
     /// has no position for it: the value is not finite, or not positive on a logarithmic scale.
     pub(super) fn fraction(&self, value: f64) -> Option<f64> {
-        let at = match self.scale {
+        let coordinate = match self.scale {
             Scale::Linear => value,
             Scale::Log => log10(value),
         };
-        let fraction = (at - self.low) / (self.high - self.low);
-        (drawable(at) && fraction.is_finite()).then_some(fraction)
+        let fraction = (coordinate - self.low) / (self.high - self.low);
+        (drawable(coordinate) && fraction.is_finite()).then_some(fraction)
     }
 
     /// The smallest distance between two neighbouring ticks, as a fraction of the axis.
     pub(super) fn spacing(&self) -> f64 {
         self.ticks.windows(2).fold(1.0, |least, pair| match pair {
-            [a, b] => (b.at - a.at).min(least),
+            [a, b] => (b.fraction - a.fraction).min(least),
             _ => least,
         })
     }
@@ -126,8 +126,8 @@ pub(super) fn linear(range: AxisRange, count: usize, slack: f64) -> Axis {
         (first..=last.min(first.saturating_add(100))).map(|i| i * step.mantissa).collect();
     let (labels, note) = write(&integers, step.exponent);
     let ticks = integers.iter().zip(labels).map(|(integer, text)| {
-        let at = (decimal(*integer, step.exponent) - low) / (high - low);
-        Tick { at: at.clamp(0.0, 1.0), label: Label::plain(text) }
+        let fraction = (decimal(*integer, step.exponent) - low) / (high - low);
+        Tick { fraction: fraction.clamp(0.0, 1.0), label: Label::plain(text) }
     });
     Axis { scale: Scale::Linear, low, high, ticks: ticks.collect(), minor: Vec::new(), note }
 }
@@ -254,9 +254,9 @@ pub(super) fn logarithmic(low: f64, high: f64, extent: impl Fn(&Label) -> f64) -
     let (a, b) = (log10(low.1), log10(high.1));
     let plain = low.0 >= -3 && high.0 <= 3;
     let tick = |m: u8, e: i32| {
-        let at = (log10(f64::from(m)) + f64::from(e) - a) / (b - a);
-        let inside = (-1e-9..=1.0 + 1e-9).contains(&at);
-        inside.then(|| Tick { at: at.clamp(0.0, 1.0), label: power(m, e, plain) })
+        let fraction = (log10(f64::from(m)) + f64::from(e) - a) / (b - a);
+        let inside = (-1e-9..=1.0 + 1e-9).contains(&fraction);
+        inside.then(|| Tick { fraction: fraction.clamp(0.0, 1.0), label: power(m, e, plain) })
     };
     let decades = low.0..=high.0.saturating_add(1);
     let whole: Vec<(i32, Tick)> = decades.clone().filter_map(|e| Some((e, tick(1, e)?))).collect();
@@ -270,20 +270,21 @@ pub(super) fn logarithmic(low: f64, high: f64, extent: impl Fn(&Label) -> f64) -
     let (labelled, others): (Vec<_>, Vec<_>) =
         whole.into_iter().partition(|(e, _)| e.rem_euclid(every) == phase);
     let mut ticks: Vec<Tick> = labelled.into_iter().map(|(_, t)| t).collect();
-    let mut minor: Vec<f64> = others.into_iter().map(|(_, t)| t.at).collect();
+    let mut minor: Vec<f64> = others.into_iter().map(|(_, t)| t.fraction).collect();
     let between = decades.flat_map(|e| [2, 5, 3, 4, 6, 7, 8, 9].map(|m| (m, e))).filter(|_| b - a <= 6.0);
     let few = ticks.len() <= 2;
     for (m, e) in between {
         let Some(tick) = tick(m, e) else { continue };
-        let free =
-            |other: &Tick| (other.at - tick.at).abs() > (extent(&other.label) + extent(&tick.label)) / 2.0;
+        let free = |other: &Tick| {
+            (other.fraction - tick.fraction).abs() > (extent(&other.label) + extent(&tick.label)) / 2.0
+        };
         if few && matches!(m, 2 | 5) && ticks.iter().all(free) {
             ticks.push(tick);
         } else {
-            minor.push(tick.at);
+            minor.push(tick.fraction);
         }
     }
-    ticks.sort_by(|a, b| a.at.total_cmp(&b.at));
+    ticks.sort_by(|a, b| a.fraction.total_cmp(&b.fraction));
     Axis { scale: Scale::Log, low: a, high: b, ticks, minor, note: None }
 }
 
@@ -372,7 +373,7 @@ mod tests {
             prop_assume!(drawable(a) && drawable(b));
             let axis = linear(range(Some((a.min(b), a.max(b))), low, None), count, 1.0);
             prop_assert!(axis.low < axis.high && axis.ticks.len() <= count + 3);
-            prop_assert!(axis.ticks.windows(2).all(|t| t[0].at < t[1].at));
+            prop_assert!(axis.ticks.windows(2).all(|t| t[0].fraction < t[1].fraction));
             prop_assert!(axis.ticks.iter().all(|t| t.label.text.chars().count() < 14));
         }
 
@@ -380,8 +381,8 @@ mod tests {
         fn a_free_axis_holds_its_data(a in -1e9..1e9f64, b in -1e9..1e9f64, count in 2usize..12) {
             let axis = linear(range(Some((a.min(b), a.max(b))), None, None), count, 1.0);
             for value in [a, b] {
-                let at = axis.fraction(value).unwrap();
-                prop_assert!((-1e-6..=1.0 + 1e-6).contains(&at), "{at}");
+                let fraction = axis.fraction(value).unwrap();
+                prop_assert!((-1e-6..=1.0 + 1e-6).contains(&fraction), "{fraction}");
             }
             prop_assert!(axis.ticks.len() >= 2);
         }
@@ -391,8 +392,8 @@ mod tests {
             let (low, high) = (10f64.powf(a.min(b)), 10f64.powf(a.max(b)));
             let axis = logarithmic(low, high, |_| 1.0 / f64::from(count));
             for value in [low, high] {
-                let at = axis.fraction(value).unwrap();
-                prop_assert!((-1e-9..=1.0 + 1e-9).contains(&at), "{at}");
+                let fraction = axis.fraction(value).unwrap();
+                prop_assert!((-1e-9..=1.0 + 1e-9).contains(&fraction), "{fraction}");
             }
             prop_assert!(!axis.ticks.is_empty() && axis.ticks.len() <= 12);
         }

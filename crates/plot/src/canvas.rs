@@ -103,22 +103,22 @@ impl Canvas {
     }
 
     /// Draws a filled disc.
-    pub(super) fn disc(&mut self, at: (f64, f64), radius: f64, fill: &str) {
+    pub(super) fn disc(&mut self, centre: (f64, f64), radius: f64, fill: &str) {
         self.push(&format!(
             "<circle cx=\"{}\" cy=\"{}\" r=\"{}\" fill=\"{fill}\" stroke=\"none\"/>",
-            px(at.0),
-            px(at.1),
+            px(centre.0),
+            px(centre.1),
             px(radius)
         ));
     }
 
-    /// Writes a line of text. `at` is on its baseline.
-    pub(super) fn text(&mut self, at: (f64, f64), text: &str) {
-        self.label(at, &Label::plain(text));
+    /// Writes a line of text. `position` is on its baseline.
+    pub(super) fn text(&mut self, position: (f64, f64), text: &str) {
+        self.label(position, &Label::plain(text));
     }
 
-    /// Writes a label. `at` is on its baseline.
-    pub(super) fn label(&mut self, at: (f64, f64), label: &Label) {
+    /// Writes a label. `position` is on its baseline.
+    pub(super) fn label(&mut self, position: (f64, f64), label: &Label) {
         let mut inner = escape(&label.text);
         if !label.power.is_empty() {
             inner.push_str(&format!(
@@ -132,7 +132,7 @@ impl Canvas {
                 ));
             }
         }
-        self.push(&format!("<text x=\"{}\" y=\"{}\">{inner}</text>", px(at.0), px(at.1)));
+        self.push(&format!("<text x=\"{}\" y=\"{}\">{inner}</text>", px(position.0), px(position.1)));
     }
 
     /// Returns the picture.

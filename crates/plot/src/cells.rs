@@ -49,11 +49,15 @@ pub fn cells(chart: &Cells) -> String {
     }
     map.draw_values(&mut canvas, chart);
     map.draw_titles(&mut canvas);
-    legend::draw(&mut canvas, &map.legend, &area, map.words.below(), |canvas, index, at| {
-        canvas.area((at.0 + SAMPLE_WIDTH - 12.0, at.1 - 6.0), (at.0 + SAMPLE_WIDTH, at.1 + 6.0), fill(index));
+    legend::draw(&mut canvas, &map.legend, &area, map.words.below(), |canvas, index, start| {
+        canvas.area(
+            (start.0 + SAMPLE_WIDTH - 12.0, start.1 - 6.0),
+            (start.0 + SAMPLE_WIDTH, start.1 + 6.0),
+            fill(index),
+        );
         if index > 0 {
             canvas.open(&style(TICK, "#ffffff", "middle"));
-            canvas.text((at.0 + SAMPLE_WIDTH - 6.0, at.1 + drop(TICK)), &index.to_string());
+            canvas.text((start.0 + SAMPLE_WIDTH - 6.0, start.1 + drop(TICK)), &index.to_string());
             canvas.close();
         }
     });

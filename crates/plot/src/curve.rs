@@ -153,9 +153,9 @@ pub(super) fn segment(from: Point, to: Point, frame: &Frame) -> Option<(Point, P
     if enter > leave {
         return None;
     }
-    let at = |t: f64| (from.0 + t * dx, from.1 + t * dy);
-    let start = if enter == 0.0 { from } else { at(enter) };
-    let end = if leave == 1.0 { to } else { at(leave) };
+    let point_at = |t: f64| (from.0 + t * dx, from.1 + t * dy);
+    let start = if enter == 0.0 { from } else { point_at(enter) };
+    let end = if leave == 1.0 { to } else { point_at(leave) };
     Some((start, end))
 }
 

@@ -83,23 +83,23 @@ pub(super) fn margin(y: &Axis) -> f64 {
 /// Draws everything except the data. The scales extend over `inner`. The horizontal lines and the border extend over `outer`,
 /// which is wider than `inner` if there are strips next to the scale.
 pub(super) fn draw(canvas: &mut Canvas, outer: &Frame, inner: &Frame, x: &Axis, y: &Axis, words: &PlotTexts) {
-    let across = |at: f64| snap(inner.at(0.0, at).1);
-    let along = |at: f64| snap(inner.at(at, 0.0).0);
+    let across = |fraction: f64| snap(inner.at(0.0, fraction).1);
+    let along = |fraction: f64| snap(inner.at(fraction, 0.0).0);
 
     canvas.open(&format!("stroke=\"{MINOR_GRID_COLOUR}\""));
-    for at in &y.minor {
-        canvas.line((outer.left, across(*at)), (outer.right, across(*at)));
+    for fraction in &y.minor {
+        canvas.line((outer.left, across(*fraction)), (outer.right, across(*fraction)));
     }
-    for at in &x.minor {
-        canvas.line((along(*at), outer.top), (along(*at), outer.bottom));
+    for fraction in &x.minor {
+        canvas.line((along(*fraction), outer.top), (along(*fraction), outer.bottom));
     }
     canvas.close();
     canvas.open(&format!("stroke=\"{GRID}\""));
     for tick in &y.ticks {
-        canvas.line((outer.left, across(tick.at)), (outer.right, across(tick.at)));
+        canvas.line((outer.left, across(tick.fraction)), (outer.right, across(tick.fraction)));
     }
     for tick in &x.ticks {
-        canvas.line((along(tick.at), outer.top), (along(tick.at), outer.bottom));
+        canvas.line((along(tick.fraction), outer.top), (along(tick.fraction), outer.bottom));
     }
     canvas.close();
 
@@ -107,21 +107,21 @@ pub(super) fn draw(canvas: &mut Canvas, outer: &Frame, inner: &Frame, x: &Axis, 
     canvas.line((snap(outer.left), outer.top), (snap(outer.left), outer.bottom));
     canvas.line((outer.left, snap(outer.bottom)), (outer.right, snap(outer.bottom)));
     for tick in &y.ticks {
-        canvas.line((outer.left - 4.0, across(tick.at)), (outer.left, across(tick.at)));
+        canvas.line((outer.left - 4.0, across(tick.fraction)), (outer.left, across(tick.fraction)));
     }
     for tick in &x.ticks {
-        canvas.line((along(tick.at), outer.bottom), (along(tick.at), outer.bottom + 4.0));
+        canvas.line((along(tick.fraction), outer.bottom), (along(tick.fraction), outer.bottom + 4.0));
     }
     canvas.close();
 
     canvas.open(&style(TICK, LABEL_COLOUR, "end"));
     for tick in &y.ticks {
-        canvas.label((outer.left - TO_TICK, inner.at(0.0, tick.at).1 + drop(TICK)), &tick.label);
+        canvas.label((outer.left - TO_TICK, inner.at(0.0, tick.fraction).1 + drop(TICK)), &tick.label);
     }
     canvas.close();
     canvas.open(&style(TICK, LABEL_COLOUR, "middle"));
     for tick in x.ticks.iter().filter(|t| t.label != Label::default()) {
-        canvas.label((inner.at(tick.at, 0.0).0, outer.bottom + 17.0), &tick.label);
+        canvas.label((inner.at(tick.fraction, 0.0).0, outer.bottom + 17.0), &tick.label);
     }
     canvas.close();
     label(canvas, outer, x, y, words);
@@ -167,9 +167,9 @@ fn label(canvas: &mut Canvas, outer: &Frame, x: &Axis, y: &Axis, words: &PlotTex
 }
 
 /// Draws the part that all tick labels share.
-fn shared(canvas: &mut Canvas, note: &Label, at: Point, anchor: &str) {
+fn shared(canvas: &mut Canvas, note: &Label, position: Point, anchor: &str) {
     canvas.open(&style(TICK, LABEL_COLOUR, anchor));
-    canvas.label(at, note);
+    canvas.label(position, note);
     canvas.close();
 }
 
@@ -184,6 +184,6 @@ pub(super) fn empty(canvas: &mut Canvas, frame: &Frame, why: &str) {
 }
 
 /// The middle of a pixel, where a line with a width of one pixel is sharp.
-fn snap(at: f64) -> f64 {
-    at.floor() + 0.5
+fn snap(coordinate: f64) -> f64 {
+    coordinate.floor() + 0.5
 }

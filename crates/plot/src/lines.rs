@@ -82,10 +82,10 @@ pub fn line_chart(chart: &Chart) -> String {
     let mut canvas =
         Canvas::new(size, if named.trim().is_empty() { "Plot" } else { named }, &describe(chart));
     draw(&mut canvas, &frame, &frame, &x, &y, &words);
-    if let Some(zero) = y.fraction(0.0).filter(|at| *at > 0.001 && *at < 0.999) {
-        let at = frame.at(0.0, zero).1.floor() + 0.5;
+    if let Some(zero) = y.fraction(0.0).filter(|fraction| *fraction > 0.001 && *fraction < 0.999) {
+        let height = frame.at(0.0, zero).1.floor() + 0.5;
         canvas.open(&format!("stroke=\"{ZERO}\""));
-        canvas.line((frame.left, at), (frame.right, at));
+        canvas.line((frame.left, height), (frame.right, height));
         canvas.close();
     }
     references(&mut canvas, &refs, &frame, &y);
@@ -93,10 +93,10 @@ pub fn line_chart(chart: &Chart) -> String {
     if !found {
         frame::empty(&mut canvas, &frame, empty_text(chart));
     }
-    legend::draw(&mut canvas, &legend, &frame, below, |canvas, index, at| {
+    legend::draw(&mut canvas, &legend, &frame, below, |canvas, index, start| {
         let dashed = chart.series.get(index).is_some_and(|s| s.dash);
         canvas.open(&stroke(index, dashed));
-        canvas.line(at, (at.0 + SAMPLE_WIDTH, at.1));
+        canvas.line(start, (start.0 + SAMPLE_WIDTH, start.1));
         canvas.close();
     });
     canvas.finish()
@@ -128,7 +128,7 @@ fn steps(length: f64, least: f64) -> usize {
 fn horizontal(range: AxisRange, left: f64, limit: f64, alone: bool) -> (f64, Axis) {
     let build = |count: usize| {
         let x = linear(range, count, 0.02);
-        let last = x.ticks.last().filter(|t| t.at > 0.9).map_or(0.0, |t| t.label.width(TICK) / 2.0);
+        let last = x.ticks.last().filter(|t| t.fraction > 0.9).map_or(0.0, |t| t.label.width(TICK) / 2.0);
         let right = if alone { limit - (last - EDGE / 2.0).max(4.0) } else { limit - 4.0 };
         (right.max(left + 40.0), x)
     };
@@ -181,25 +181,25 @@ fn references(canvas: &mut Canvas, refs: &[(f64, String)], frame: &Frame, y: &Ax
     let mut seen: Vec<(f64, &str)> = refs
         .iter()
         .filter_map(|(value, label)| Some((y.fraction(*value)?, label.as_str())))
-        .filter(|(at, _)| (0.0..=1.0).contains(at))
-        .map(|(at, label)| (frame.at(0.0, at).1, label))
+        .filter(|(fraction, _)| (0.0..=1.0).contains(fraction))
+        .map(|(fraction, label)| (frame.at(0.0, fraction).1, label))
         .collect();
     if seen.is_empty() {
         return;
     }
     canvas.open(&format!("stroke=\"{AXIS}\" stroke-dasharray=\"4 3\""));
-    for (at, _) in &seen {
-        canvas.line((frame.left, *at), (frame.right, *at));
+    for (height, _) in &seen {
+        canvas.line((frame.left, *height), (frame.right, *height));
     }
     canvas.close();
     seen.retain(|(_, label)| !label.is_empty());
     seen.sort_by(|a, b| a.0.total_cmp(&b.0));
     seen.truncate((frame.height() / (SMALL + 2.0)).max(1.0) as usize);
     canvas.open(&style(SMALL, TITLE_COLOUR, "start"));
-    for (at, (_, label)) in
+    for (height, (_, label)) in
         separated_heights(&seen.iter().map(|s| s.0).collect::<Vec<_>>(), frame).into_iter().zip(&seen)
     {
-        canvas.text((frame.right + 6.0, at + drop(SMALL)), label);
+        canvas.text((frame.right + 6.0, height + drop(SMALL)), label);
     }
     canvas.close();
 }
@@ -210,15 +210,15 @@ fn separated_heights(heights: &[f64], frame: &Frame) -> Vec<f64> {
     let row = SMALL + 2.0;
     let mut least = f64::NEG_INFINITY;
     let mut moved: Vec<f64> = Vec::with_capacity(heights.len());
-    for at in heights {
-        let at = at.max(least);
-        moved.push(at);
-        least = at + row;
+    for height in heights {
+        let height = height.max(least);
+        moved.push(height);
+        least = height + row;
     }
     let mut most = frame.bottom;
-    for at in moved.iter_mut().rev() {
-        *at = at.min(most);
-        most = *at - row;
+    for height in moved.iter_mut().rev() {
+        *height = height.min(most);
+        most = *height - row;
     }
     moved
 }

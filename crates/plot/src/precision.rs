@@ -136,15 +136,15 @@ pub fn work_precision(chart: &WorkPrecision) -> String {
 
     let placed = place(&methods, (&outer, &inner), &x, &y, diverging);
     plot(&mut canvas, chart, &placed, &outer);
-    legend::draw(&mut canvas, &legend, &outer, below, |canvas, index, at| {
+    legend::draw(&mut canvas, &legend, &outer, below, |canvas, index, start| {
         let look = chart
             .methods
             .get(index)
             .map_or(MarkerStyle { index, hollow: false }, |m| MarkerStyle::of_method(index, m));
         canvas.open(&stroke(look));
-        canvas.line(at, (at.0 + SAMPLE_WIDTH, at.1));
+        canvas.line(start, (start.0 + SAMPLE_WIDTH, start.1));
         canvas.close();
-        mark(canvas, look, (at.0 + SAMPLE_WIDTH / 2.0, at.1));
+        mark(canvas, look, (start.0 + SAMPLE_WIDTH / 2.0, start.1));
     });
     canvas.finish()
 }
@@ -155,7 +155,7 @@ fn drop_labels_under_strips(x: &mut Axis, outer: &Frame, inner: &Frame, size: f6
     let name = width(DIVERGED, TICK);
     let most = if inner.right < outer.right { (inner.right + outer.right - name) / 2.0 - 8.0 } else { size };
     for tick in &mut x.ticks {
-        let (middle, half) = (inner.at(tick.at, 0.0).0, tick.label.width(TICK) / 2.0);
+        let (middle, half) = (inner.at(tick.fraction, 0.0).0, tick.label.width(TICK) / 2.0);
         if middle - half < least || middle + half > most {
             tick.label = Label::default();
         }
@@ -208,7 +208,7 @@ fn axis(values: impl Iterator<Item = f64>, extent: impl Fn(&Label) -> f64) -> Ax
 /// A run with its position.
 struct PlacedRun<'a> {
     error: DrawnError,
-    at: Point,
+    point: Point,
     note: &'a str,
     at_most: bool,
     /// The vertical positions of the ends of its bar.
@@ -245,7 +245,7 @@ fn place<'a>(
             let bar = run.spread.and_then(|[low, high]| Some([end(low)?, end(high)?]));
             Some(PlacedRun {
                 error: run.error,
-                at: (along, height),
+                point: (along, height),
                 note: run.note,
                 at_most: run.at_most,
                 bar,
@@ -272,27 +272,27 @@ fn plot(canvas: &mut Canvas, chart: &WorkPrecision, methods: &[Vec<PlacedRun>], 
         let look = MarkerStyle::of_method(index, drawn);
         for (i, run) in method.iter().enumerate() {
             if let Some([low, high]) = run.bar {
-                bar(canvas, look.index, run.at.0, [low, high]);
+                bar(canvas, look.index, run.point.0, [low, high]);
             }
             if run.at_most {
-                arrow(canvas, look.index, run.at);
+                arrow(canvas, look.index, run.point);
             }
             if run.error == DrawnError::Diverged {
-                cross(canvas, look.index, run.at);
+                cross(canvas, look.index, run.point);
             } else {
-                mark(canvas, look, run.at);
+                mark(canvas, look, run.point);
             }
             let text = fit(&clean_label(run.note), SMALL, 0.2 * frame.width());
-            wishes.push(PlacedLabel { point: run.at, text, first: i == 0 || i + 1 == method.len() });
+            wishes.push(PlacedLabel { point: run.point, text, first: i == 0 || i + 1 == method.len() });
         }
     }
-    let marks: Vec<Point> = methods.iter().flatten().map(|run| run.at).collect();
+    let marks: Vec<Point> = methods.iter().flatten().map(|run| run.point).collect();
     let lines: Vec<Vec<Point>> = curves.into_iter().flatten().collect();
     canvas.open(&style(SMALL, LABEL_COLOUR, "start"));
     // At the right, a label may extend into the space before the legend.
     let bounds = Frame { right: frame.right + 8.0, ..*frame };
-    for (at, text) in arrange(wishes, &marks, &lines, &bounds) {
-        canvas.text(at, &text);
+    for (position, text) in arrange(wishes, &marks, &lines, &bounds) {
+        canvas.text(position, &text);
     }
     canvas.close();
 }
@@ -301,7 +301,7 @@ fn plot(canvas: &mut Canvas, chart: &WorkPrecision, methods: &[Vec<PlacedRun>], 
 fn connected(method: &[PlacedRun]) -> Vec<Vec<Point>> {
     let on_scale = |run: &PlacedRun| matches!(run.error, DrawnError::Finite(_));
     let parts = method.chunk_by(|a, b| on_scale(a) && on_scale(b));
-    parts.filter(|p| p.len() > 1).map(|p| p.iter().map(|run| run.at).collect()).collect()
+    parts.filter(|p| p.len() > 1).map(|p| p.iter().map(|run| run.point).collect()).collect()
 }
 
 fn stroke(look: MarkerStyle) -> String {
@@ -311,7 +311,7 @@ fn stroke(look: MarkerStyle) -> String {
 }
 
 /// Draws the mark of a run. Its shape corresponds to the colour, for prints without colours.
-fn mark(canvas: &mut Canvas, look: MarkerStyle, at: Point) {
+fn mark(canvas: &mut Canvas, look: MarkerStyle, point: Point) {
     let [fill, edge] = match look.hollow {
         false => [colour(look.index), "#ffffff"],
         true => ["#ffffff", colour(look.index)],
@@ -320,7 +320,7 @@ fn mark(canvas: &mut Canvas, look: MarkerStyle, at: Point) {
         "fill=\"{fill}\" stroke=\"{edge}\" stroke-width=\"{}\"",
         if look.hollow { 1.25 } else { 0.75 }
     ));
-    canvas.path(&shape(look.index, at));
+    canvas.path(&shape(look.index, point));
     canvas.close();
 }
 

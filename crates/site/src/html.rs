@@ -223,7 +223,7 @@ impl AuthorElements {
 
     fn end(&mut self, name: &str, base: usize) -> String {
         match self.names.iter().rposition(|open| *open == name) {
-            Some(at) if at >= base => self.close_to(at),
+            Some(index) if index >= base => self.close_to(index),
             _ => String::new(),
         }
     }

@@ -38,7 +38,7 @@ impl Outline {
         let title = first.map(|h| h.text.clone()).or(title).or(headings.first().map(|h| h.text.clone()));
         let title = title.filter(|title| !title.trim().is_empty()).unwrap_or_else(|| file.to_string());
         let with_id =
-            headings.into_iter().map(|h| (anchors.add(&prose::requested_id(&h), &h.text), h.text, h.at));
+            headings.into_iter().map(|h| (anchors.add(&prose::requested_id(&h), &h.text), h.text, h.offset));
         Outline { title, has_heading, headings: with_id.collect(), fences, masked }
     }
 }
@@ -238,11 +238,12 @@ fn plain(markdown: &str) -> String {
 fn sections(lesson: &Lesson, outline: &Outline) -> Vec<Section> {
     let text = &outline.masked.text;
     let mut starts: Vec<(usize, String, String)> = vec![(0, String::new(), outline.title.clone())];
-    starts.extend(outline.headings.iter().map(|(id, heading, at)| (*at, id.clone(), heading.clone())));
+    starts
+        .extend(outline.headings.iter().map(|(id, heading, offset)| (*offset, id.clone(), heading.clone())));
     let mut all = Vec::new();
-    for (i, (at, id, heading)) in starts.iter().enumerate() {
+    for (i, (offset, id, heading)) in starts.iter().enumerate() {
         let end = starts.get(i + 1).map_or(text.len(), |next| next.0);
-        let range = *at..end.max(*at);
+        let range = *offset..end.max(*offset);
         let mut words = text.get(range.clone()).map(plain).unwrap_or_default();
         for (_, index) in outline.masked.fences(&range) {
             let Some(block) = lesson.scan.blocks.get(index) else { continue };

@@ -22,7 +22,7 @@ pub(crate) fn class_of(state: State) -> (&'static str, &'static str) {
         State::True(_) => ("claim-true", "✓"),
         State::False => ("claim-false", "✗"),
         State::Unchecked => ("claim-open", "?"),
-        State::Known => ("claim-open", "≈"),
+        State::Baselined => ("claim-open", "≈"),
         State::Skipped => ("claim-open", "…"),
         State::NotClaimed => ("claim-none", "○"),
     }

@@ -24,20 +24,20 @@ impl Masked {
     /// Replaces the fences of a text.
     pub(crate) fn new(text: &str, scan: &Scan) -> Masked {
         let mut masked = Masked::default();
-        let mut at = 0;
+        let mut offset = 0;
         for (index, block) in scan.blocks.iter().enumerate() {
-            if block.span.start < at {
+            if block.span.start < offset {
                 continue;
             }
-            masked.push(text, at..block.span.start);
+            masked.push(text, offset..block.span.start);
             masked.fences.insert(masked.text.len(), index);
             masked.text.push_str(PLACEHOLDER);
             if text.get(..block.span.end).is_some_and(|before| before.ends_with('\n')) {
                 masked.text.push('\n');
             }
-            at = block.span.end;
+            offset = block.span.end;
         }
-        masked.push(text, at..text.len());
+        masked.push(text, offset..text.len());
         masked
     }
 
@@ -49,12 +49,12 @@ impl Masked {
     }
 
     /// The byte of the file for a byte of the text. Inside a placeholder, it is the start of the fence.
-    pub(crate) fn origin(&self, at: usize) -> usize {
-        let after = self.pieces.partition_point(|(start, ..)| *start <= at);
+    pub(crate) fn origin(&self, offset: usize) -> usize {
+        let after = self.pieces.partition_point(|(start, ..)| *start <= offset);
         let Some((start, origin, length)) = after.checked_sub(1).and_then(|i| self.pieces.get(i)) else {
             return 0;
         };
-        origin + (at - start).min(*length)
+        origin + (offset - start).min(*length)
     }
 
     /// The bytes of the file for a range of the text that contains no fence; `None` where it is not one piece.
@@ -66,7 +66,7 @@ impl Masked {
 
     /// The fences in a range of the text: the start of each placeholder, and the index of the fence.
     pub(crate) fn fences(&self, range: &Range<usize>) -> impl Iterator<Item = (usize, usize)> {
-        self.fences.range(range.start..range.end.max(range.start)).map(|(at, index)| (*at, *index))
+        self.fences.range(range.start..range.end.max(range.start)).map(|(offset, index)| (*offset, *index))
     }
 }
 

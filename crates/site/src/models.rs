@@ -37,8 +37,8 @@ impl ModelShelf {
     /// The number of a folder, from 0.
     pub(crate) fn number(&mut self, folder: ModelFolder) -> usize {
         let name = format!("{folder:?}");
-        if let Some(at) = self.folders.iter().position(|(other, _)| *other == name) {
-            return at;
+        if let Some(index) = self.folders.iter().position(|(other, _)| *other == name) {
+            return index;
         }
         self.folders.push((name, Models::with_hash(folder, crate::verified::hex_of)));
         self.folders.len() - 1

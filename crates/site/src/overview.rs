@@ -80,13 +80,13 @@ pub(crate) fn labs_main(pages: &[LessonPage]) -> String {
 }
 
 /// Links to the lessons before and after.
-pub(crate) fn neighbours(pages: &[LessonPage], at: usize) -> String {
-    let Some(page) = pages.get(at) else { return String::new() };
+pub(crate) fn neighbours(pages: &[LessonPage], index: usize) -> String {
+    let Some(page) = pages.get(index) else { return String::new() };
     let link = |other: &LessonPage, rel: &str, word: &str| {
         let href = address_from(&page.name, &other.name);
         format!("<a rel=\"{rel}\" href=\"{href}\"><small>{word}</small> {}</a>", escape(&other.title))
     };
-    let before = at.checked_sub(1).and_then(|i| pages.get(i)).map(|other| link(other, "prev", "Previous"));
-    let after = pages.get(at + 1).map(|other| link(other, "next", "Next"));
+    let before = index.checked_sub(1).and_then(|i| pages.get(i)).map(|other| link(other, "prev", "Previous"));
+    let after = pages.get(index + 1).map(|other| link(other, "next", "Next"));
     before.into_iter().chain(after).collect()
 }

@@ -27,7 +27,7 @@ pub(crate) struct Heading {
     pub(crate) id: Option<String>,
     pub(crate) text: String,
     /// Where it begins in the masked text.
-    pub(crate) at: usize,
+    pub(crate) offset: usize,
 }
 
 /// The headings of a text, and the title in the metadata before it.
@@ -37,7 +37,7 @@ pub(crate) fn outline(masked: &Masked) -> (Vec<Heading>, Option<String>) {
         match event {
             Event::Start(Tag::Heading { level, id, .. }) => {
                 let id = id.map(|id| id.to_string());
-                open = Some(Heading { level: level as u8, id, text: String::new(), at: range.start });
+                open = Some(Heading { level: level as u8, id, text: String::new(), offset: range.start });
             }
             Event::End(TagEnd::Heading(_)) => all.extend(open.take()),
             Event::Start(Tag::MetadataBlock(_)) => in_metadata = true,
@@ -196,14 +196,14 @@ impl<'r> Renderer<'r, '_> {
     fn add_html(&mut self, range: Range<usize>) {
         let masked = self.around.masked;
         let fences: Vec<(usize, usize)> = masked.fences(&range).collect();
-        let mut at = range.start;
+        let mut offset = range.start;
         for (start, index) in fences {
-            self.push_html(at..start);
+            self.push_html(offset..start);
             self.flush_html();
             self.add_fence(index);
-            at = start + PLACEHOLDER.len();
+            offset = start + PLACEHOLDER.len();
         }
-        self.push_html(at..range.end);
+        self.push_html(offset..range.end);
     }
 
     fn push_html(&mut self, range: Range<usize>) {
@@ -403,18 +403,18 @@ impl<'r> Renderer<'r, '_> {
         if marks.is_empty() {
             return self.events.push(Event::Text(text));
         }
-        let mut at = 0;
+        let mut offset = 0;
         for (part, mark) in marks {
-            let (Some(before), Some(inside)) = (text.get(at..part.start), text.get(part.clone())) else {
+            let (Some(before), Some(inside)) = (text.get(offset..part.start), text.get(part.clone())) else {
                 continue;
             };
             self.events.push(Event::Text(CowStr::from(before.to_string())));
             self.markup(mark_start(&mark));
             self.events.push(Event::Text(CowStr::from(inside.to_string())));
             self.markup(mark_end(&mark));
-            at = part.end;
+            offset = part.end;
         }
-        let rest = text.get(at..).unwrap_or("").to_string();
+        let rest = text.get(offset..).unwrap_or("").to_string();
         self.events.push(Event::Text(CowStr::from(rest)));
     }
 }

@@ -183,8 +183,8 @@ pub fn build_site(
         };
         site.files.insert(name.to_string(), SiteFile::Text(page.write()));
     };
-    for (at, page) in pages.iter().enumerate() {
-        add(&page.name, lesson_frame(&pages, at, page));
+    for (position, page) in pages.iter().enumerate() {
+        add(&page.name, lesson_frame(&pages, position, page));
     }
     let title = if has_own_index { LIST_TITLE } else { options.title() };
     add(list.unwrap_or(INDEX), Page { title, main: index_main(title, &pages), ..Page::default() });
@@ -211,14 +211,14 @@ pub fn build_site(
 }
 
 /// The page of a lesson, as far as it differs from those of others.
-fn lesson_frame<'p>(pages: &[LessonPage], at: usize, page: &'p LessonPage) -> Page<'p> {
+fn lesson_frame<'p>(pages: &[LessonPage], index: usize, page: &'p LessonPage) -> Page<'p> {
     Page {
         title: &page.title,
         description: &page.lead,
         has_math: page.has_math,
         attributes: lesson_attributes(page),
         main: lesson_main(page),
-        neighbours: neighbours(pages, at),
+        neighbours: neighbours(pages, index),
         ..Page::default()
     }
 }

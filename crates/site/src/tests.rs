@@ -107,7 +107,7 @@ fn groups(text: &str) -> Vec<String> {
     let ids: Vec<String> = outline(&masked).0.iter().map(requested_id).collect();
     let marks: Vec<TextMark> = (0..text.len())
         .step_by(7)
-        .map(|at| TextMark { span: at..at + 3, class: "claim-true", label: "<b>\"".into() })
+        .map(|start| TextMark { span: start..start + 3, class: "claim-true", label: "<b>\"".into() })
         .collect();
     let mut fence = |index: usize, _: &mut dyn Addresses| format!("<sim-lab>{index}</sim-lab>");
     let mut around =

@@ -67,7 +67,7 @@ mod tests {
         assert_eq!(earned(&[lab]), [], "a lab without claims");
         let quote = (Subject::Quote, "lab #1", good);
         assert_eq!(earned(&[lab, quote, quote]), [("lab #1".to_string(), 2)]);
-        for state in [State::False, State::Unchecked, State::Skipped, State::Known, State::NotClaimed] {
+        for state in [State::False, State::Unchecked, State::Skipped, State::Baselined, State::NotClaimed] {
             assert_eq!(earned(&[lab, quote, (Subject::Quote, "lab #1", state)]), [], "{state:?}");
             assert_eq!(earned(&[quote, (Subject::Lab, "lab #1", state)]), [], "{state:?}");
         }

@@ -158,8 +158,8 @@ impl EngineAccess<'_> {
     }
 
     /// A number of the members of sweeps.
-    pub(super) fn number(&self, at: usize) -> Option<f64> {
-        self.world.get(NUMBERS, at)
+    pub(super) fn number(&self, index: usize) -> Option<f64> {
+        self.world.get(NUMBERS, index)
     }
 }
 

@@ -70,11 +70,11 @@ fn symmetric(heap: &Heap, value: &Value) -> Option<DMatrix<f64>> {
     };
     let n = rows.len();
     let size = rows.iter().flatten().fold(0.0f64, |most, x| most.max(x.abs()));
-    let at = |i: usize, j: usize| rows.get(i).and_then(|row| row.get(j)).copied().unwrap_or(f64::NAN);
-    let same = |i: usize, j: usize| (at(i, j) - at(j, i)).abs() <= 1e-9 * size;
+    let entry = |i: usize, j: usize| rows.get(i).and_then(|row| row.get(j)).copied().unwrap_or(f64::NAN);
+    let same = |i: usize, j: usize| (entry(i, j) - entry(j, i)).abs() <= 1e-9 * size;
     let good =
         n > 0 && n <= 64 && rows.iter().all(|r| r.len() == n) && (0..n).all(|i| (0..=i).all(|j| same(i, j)));
-    good.then(|| DMatrix::from_fn(n, n, at))
+    good.then(|| DMatrix::from_fn(n, n, entry))
 }
 
 /// A function over all samples of a run; the owner of the run computes the result.

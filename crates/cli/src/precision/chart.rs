@@ -20,7 +20,7 @@ pub(super) fn chart(report: &PrecisionResults, title: &str) -> String {
         Some(MethodPoint { cost, error, at_most: e.below, ..MethodPoint::default() })
     };
     // A run that is not compared is not drawn; a run that failed is.
-    let mine = |row: &PrecisionRow| {
+    let point_of = |row: &PrecisionRow| {
         let note = format!("{} ms", milliseconds(row.setting.timestep));
         let spread = Some([row.cost.low, row.cost.high]);
         let failed = MethodPoint { cost: row.cost.median, failed: true, ..MethodPoint::default() };
@@ -34,7 +34,7 @@ pub(super) fn chart(report: &PrecisionResults, title: &str) -> String {
             .rows
             .iter()
             .filter(|row| row.setting.integrator == *integrator && row.setting.solver.is_none())
-            .filter_map(mine)
+            .filter_map(point_of)
             .collect(),
         echo: None,
     });

@@ -32,7 +32,7 @@ pub(super) fn csv(report: &PrecisionResults, out: &mut dyn io::Write) -> io::Res
             writeln!(
                 out,
                 "{start},\"{label}\",\"{unit}\",{},{},{},{},{},{order},{end}",
-                e.largest, e.at, e.rms, e.end, e.below
+                e.largest, e.time, e.rms, e.end, e.below
             )?;
         }
     }
@@ -86,7 +86,8 @@ struct PrecisionRunRow<'a> {
     events_below: Vec<bool>,
     below: Vec<bool>,
     errors: Vec<Option<f64>>,
-    at: Vec<Option<f64>>,
+    #[serde(rename = "at")]
+    times: Vec<Option<f64>>,
     rms: Vec<Option<f64>>,
     end: Vec<Option<f64>>,
     orders: Vec<Option<f64>>,
@@ -197,7 +198,7 @@ fn run_row(row: &PrecisionRow, report: &PrecisionResults) -> Map<String, Value> 
         events_below: at_most.collect(),
         below: row.errors.iter().map(|e| e.below).collect(),
         errors: column(|e| Some(e.largest)),
-        at: column(|e| Some(e.at)),
+        times: column(|e| Some(e.time)),
         rms: column(|e| Some(e.rms)),
         end: column(|e| Some(e.end)),
         orders: column(|e| e.order),
@@ -213,7 +214,7 @@ fn run_row(row: &PrecisionRow, report: &PrecisionResults) -> Map<String, Value> 
         &row,
         &[
             ("errors", &row.errors),
-            ("at", &row.at),
+            ("at", &row.times),
             ("rms", &row.rms),
             ("end", &row.end),
             ("orders", &row.orders),

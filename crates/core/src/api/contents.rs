@@ -78,13 +78,15 @@ impl Contents {
         if self.version == other.version {
             return changed;
         }
-        let mut at = 0;
+        let mut first = 0;
         for (a, b) in self.stamps.chunks(8).zip(other.stamps.chunks(8)) {
             if a != b {
                 let differing = a.iter().zip(b).enumerate().filter(|(_, (a, b))| a != b);
-                differing.filter_map(|(i, _)| FieldId::new(at + i)).for_each(|field| changed.insert(field));
+                differing
+                    .filter_map(|(i, _)| FieldId::new(first + i))
+                    .for_each(|field| changed.insert(field));
             }
-            at += 8;
+            first += 8;
         }
         changed
     }
@@ -160,7 +162,7 @@ mod tests {
         Model::from_xml(&SCENE.replacen("<joint type='slide'", "<joint name='push' type='slide'", 1)).unwrap()
     }
 
-    fn write(m: &mut Model, d: &mut Data<crate::api::data::Planned>, what: usize, at: usize) {
+    fn write(m: &mut Model, d: &mut Data<crate::api::data::Planned>, what: usize, index: usize) {
         let (field, value) = WRITES[what];
         let mut view = call::view_mut(m, d, field).unwrap();
         let len = match &view {
@@ -169,7 +171,7 @@ mod tests {
             ViewMut::Bool(v) => v.len(),
             ViewMut::Fixed => 0,
         };
-        view.set(at % len.max(1), value);
+        view.set(index % len.max(1), value);
     }
 
     fn coordinates() -> AccessSet {
@@ -190,16 +192,16 @@ mod tests {
         announced.iter().for_each(|&i| access.writes.insert(WRITES[i].0));
         let mut planned = Data::planned(&clones[0], Plan::new(&clones[made_with], &access));
         let mut full = Data::unplanned(&clones[0]);
-        for &(what, at, which) in events {
+        for &(what, index, which) in events {
             let other = clones[(which + 1) % 2].clone();
             let clone = &mut clones[which % 2];
             match what.checked_sub(WRITES.len()) {
-                None => write(clone, &mut planned, what, at),
+                None => write(clone, &mut planned, what, index),
                 Some(0) => clone.edit().geom_contype[0] ^= 1,
                 Some(1) => *clone = other,
                 Some(_) => {}
             }
-            let clone = &clones[at % 2];
+            let clone = &clones[index % 2];
             for _ in 0..4 {
                 call::step(clone, &mut planned).unwrap();
                 call::step(clone, &mut full).unwrap();
@@ -253,11 +255,11 @@ mod tests {
                 call::step(model, &mut planned).unwrap();
                 call::step(model, &mut full).unwrap();
             }
-            slept |= full.tree_asleep.iter().any(|&at| at >= 0);
+            slept |= full.tree_asleep.iter().any(|&island| island >= 0);
             assert_eq!(planned.fields().qpos, full.qpos);
             assert_eq!(planned.fields().tree_asleep, full.tree_asleep);
         }
-        assert!(slept && full.tree_asleep.iter().all(|&at| at < 0), "{:?}", full.tree_asleep);
+        assert!(slept && full.tree_asleep.iter().all(|&island| island < 0), "{:?}", full.tree_asleep);
     }
 
     /// Forces that are part of a copied state act, whether the access set announces them or not.

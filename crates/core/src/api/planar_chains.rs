@@ -58,13 +58,13 @@ fn data_after_steps(
 }
 
 fn check_forces_agree(m: &Model, change: &dyn Fn(&mut Model)) {
-    let [(_, ours), (m, theirs)] = [TreeAlgorithms::ALL, TreeAlgorithms::GENERAL]
+    let [(_, planar), (m, general)] = [TreeAlgorithms::ALL, TreeAlgorithms::GENERAL]
         .map(|algorithms| data_after_steps(m, algorithms, change));
     for name in
         ["M", "qLD", "qLDiagInv", "qfrc_bias", "qacc_smooth", "qacc", "qfrc_constraint", "qpos", "qvel"]
     {
         let field = reflect::field(Object::Data, name).unwrap();
-        let [a, b] = [&ours, &theirs].map(|d| {
+        let [a, b] = [&planar, &general].map(|d| {
             let view = call::view(&m, d, field).unwrap();
             (0..view.len()).filter_map(|i| view.get(i)).collect::<Vec<f64>>()
         });

@@ -106,12 +106,12 @@ fn check_recorded(xml: &str, recorded: &str, tolerance: f64) {
         if name == "sensordata" {
             with_principal_points(&m, &mut expected);
         }
-        let (error, at) = difference(&got, &expected);
+        let (error, index) = difference(&got, &expected);
         if error > tolerance {
-            let sensor_name = if name == "sensordata" { sensor(&m, at) } else { String::new() };
+            let sensor_name = if name == "sensordata" { sensor(&m, index) } else { String::new() };
             wrong.push(format!(
-                "state {state} {name}[{at}] {sensor_name}: {} instead of {}",
-                got[at], expected[at]
+                "state {state} {name}[{index}] {sensor_name}: {} instead of {}",
+                got[index], expected[index]
             ));
         }
     }
@@ -122,14 +122,14 @@ fn check_recorded(xml: &str, recorded: &str, tolerance: f64) {
 /// Adds what MuJoCo ignores in projections: the image is shifted by the principal point of its camera, pixels.
 fn with_principal_points(m: &Model, expected: &mut [f64]) {
     for s in 0..m.nsensor {
-        let at = m.sensor_adr[s] as usize;
-        if sensor(m, at).starts_with("camprojection") {
+        let address = m.sensor_adr[s] as usize;
+        if sensor(m, address).starts_with("camprojection") {
             let camera = m.sensor_refid[s] as usize;
             for axis in 0..2 {
                 let size = m.cam_sensorsize[2 * camera + axis] as f32;
                 let length = m.cam_intrinsic[4 * camera + 2 + axis] as f32;
                 let pixels = m.cam_resolution[2 * camera + axis] as f32;
-                expected[at + axis] -= if size == 0.0 { 0.0 } else { f64::from(length / size * pixels) };
+                expected[address + axis] -= if size == 0.0 { 0.0 } else { f64::from(length / size * pixels) };
             }
         }
     }
@@ -184,9 +184,9 @@ fn equality_constraints_act_where_they_hold() {
             }
             "sensordata" | "cacc" | "cfrc_int" | "cfrc_ext" => {
                 let got = numbers(&m, &d, Object::Data, name);
-                let (error, at) = difference(&got, &expected);
+                let (error, index) = difference(&got, &expected);
                 if error > 1e-12 {
-                    wrong.push(format!("{name}[{at}]: {} instead of {}", got[at], expected[at]));
+                    wrong.push(format!("{name}[{index}]: {} instead of {}", got[index], expected[index]));
                 }
             }
             _ if name.starts_with("model.") => {}

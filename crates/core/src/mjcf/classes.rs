@@ -216,10 +216,10 @@ impl Classes {
             let mut entries =
                 classes.list.get(parent).map_or_else(KeywordMap::default, |c| c.entries.clone());
             let mut nodes = Vec::new();
-            for (at, entry) in tree.children(i).filter(|(_, e)| e.element.name != "default") {
+            for (child, entry) in tree.children(i).filter(|(_, e)| e.element.name != "default") {
                 let props = Rc::make_mut(entries.or_default(entry.element.name));
                 props.overlay_within(entry, &classes.budget);
-                nodes.push(at);
+                nodes.push(child);
             }
             let index = classes.list.len();
             if index > MAX_CLASSES {
@@ -269,10 +269,10 @@ impl Classes {
 
     /// Reports the first list that exceeded the budget for completion by defaults.
     pub(crate) fn report_exceeded_budget(&self, report: &mut Diagnostics) {
-        if let Some(at) = self.budget.exceeded.get() {
+        if let Some(offset) = self.budget.exceeded.get() {
             let message = format!("lists completed by defaults have more than {MAX_COMPLETED} numbers");
             report
-                .error(rules::LIMIT, at..at, message)
+                .error(rules::LIMIT, offset..offset, message)
                 .why("each element would have its own long list")
                 .help("write the lists out, or shorten the list of the default");
         }

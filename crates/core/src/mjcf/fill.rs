@@ -176,9 +176,9 @@ fn addresses(list: &[BodySpec], count: impl Fn(&BodySpec) -> usize) -> (Vec<i32>
     let mut next = 0;
     let mut address = |b| {
         let n = count(b);
-        let at = if n == 0 { -1 } else { next as i32 };
+        let first = if n == 0 { -1 } else { next as i32 };
         next += n;
-        (at, n as i32)
+        (first, n as i32)
     };
     list.iter().map(&mut address).unzip()
 }
@@ -192,7 +192,7 @@ fn bodies(m: &mut Model, list: &[BodySpec], inertias: &[Inertia], layout: &TreeL
     (m.body_jntadr, m.body_jntnum) = addresses(list, |b| b.joints.len());
     (m.body_geomadr, m.body_geomnum) = addresses(list, |b| b.geoms.len());
     flat(&mut m.body_dofnum, &layout.body_dofs, |&(_, n)| [n as i32]);
-    flat(&mut m.body_dofadr, &layout.body_dofs, |&(at, n)| [if n == 0 { -1 } else { at as i32 }]);
+    flat(&mut m.body_dofadr, &layout.body_dofs, |&(address, n)| [if n == 0 { -1 } else { address as i32 }]);
     m.body_simple = simple.to_vec();
     flat(&mut m.body_pos, list, |b| b.pos);
     flat(&mut m.body_quat, list, |b| b.quat);
@@ -344,8 +344,8 @@ fn fill_keys(m: &mut Model, bodies: &[BodySpec], keys: &[KeySpec]) {
         }));
     let nq = m.nq;
     for key in m.key_qpos.chunks_exact_mut(nq.max(1)) {
-        for &at in &quats {
-            if let Some(q) = key.get_mut(at..at + 4).and_then(|q| <&mut [f64; 4]>::try_from(q).ok()) {
+        for &start in &quats {
+            if let Some(q) = key.get_mut(start..start + 4).and_then(|q| <&mut [f64; 4]>::try_from(q).ok()) {
                 *q = quat_normalize(*q);
             }
         }

@@ -65,9 +65,9 @@ impl Ids {
             }
         }
         for section in ["tendon", "actuator"] {
-            let nodes = tree.sections(section).flat_map(|(at, _)| tree.children(at));
-            for (i, (at, node)) in nodes.enumerate() {
-                ids.set(at, i);
+            let nodes = tree.sections(section).flat_map(|(index, _)| tree.children(index));
+            for (i, (index, node)) in nodes.enumerate() {
+                ids.set(index, i);
                 if section == "actuator" {
                     ids.outputs.push(if node.element.name == "orientation" { 3 } else { 1 });
                 }

@@ -181,8 +181,8 @@ fn simulate_pull(
 fn force(m: &Model, d: &mut Fields, o: usize, sign: f64, search: &RangeSearch, acceleration: &mut [f64]) {
     acceleration.fill(0.0);
     d.qfrc_applied.fill(0.0);
-    for at in row(d, o) {
-        let (k, x) = (d.moment_colind[at] as usize, d.actuator_moment[at]);
+    for index in row(d, o) {
+        let (k, x) = (d.moment_colind[index] as usize, d.actuator_moment[index]);
         acceleration[k] = x;
         d.qfrc_applied[k] = x;
     }

@@ -16,13 +16,13 @@ proptest! {
         let mut d = Data::new(&m);
         scatter(&m, &mut d, &numbers);
         core::forward(&m, &mut d).unwrap();
-        let ours = full_m(&m, &d);
-        let theirs = mass_matrix(&m, &d);
-        let scale = theirs.amax().max(1.0);
-        prop_assert!((&ours - &theirs).amax() <= ROUNDING * scale, "{ours}{theirs}");
-        prop_assert_eq!(&ours, &ours.transpose());
+        let computed = full_m(&m, &d);
+        let expected = mass_matrix(&m, &d);
+        let scale = expected.amax().max(1.0);
+        prop_assert!((&computed - &expected).amax() <= ROUNDING * scale, "{computed}{expected}");
+        prop_assert_eq!(&computed, &computed.transpose());
         // Positive definite: a Cholesky factor exists.
-        prop_assert!(m.nv == 0 || ours.cholesky().is_some());
+        prop_assert!(m.nv == 0 || computed.cholesky().is_some());
     }
 
     /// M a + bias = force, with the forces computed from their definitions; and the gravity part of the bias force.
@@ -137,8 +137,8 @@ proptest! {
             let i = inertia(&m, &d, b);
             expected += m.body_mass[b] * move_.tr_mul(&acceleration) + turn.tr_mul(&(i * change + spin.cross(&(i * spin))));
         }
-        let ours = DVector::from_column_slice(&d.qfrc_bias);
+        let computed = DVector::from_column_slice(&d.qfrc_bias);
         // A finite difference over 1e-5 s of numbers that are accurate to 1e-16.
-        prop_assert!((&ours - &expected).amax() <= 1e-8 * expected.amax().max(1.0), "{ours}{expected}");
+        prop_assert!((&computed - &expected).amax() <= 1e-8 * expected.amax().max(1.0), "{computed}{expected}");
     }
 }

@@ -16,18 +16,18 @@ fn capsules_on_ends_of_cylinders() {
     let (mut counts, mut cases, mut fewer) = (BTreeMap::new(), 0, 0);
     for line in text.lines() {
         let parts: Vec<&str> = line.split('|').collect();
-        let [theirs, numbers @ .., xml] = parts.as_slice() else { unreachable!("{line}") };
-        let theirs: usize = theirs.parse().unwrap();
+        let [recorded, numbers @ .., xml] = parts.as_slice() else { unreachable!("{line}") };
+        let recorded: usize = recorded.parse().unwrap();
         let numbers: Vec<f64> = numbers.iter().map(|x| x.parse().unwrap()).collect();
         let [depth, tilt, rim] = numbers[..] else { unreachable!("{line}") };
         let m = compile(xml).unwrap();
         let d = at(&m, &m.qpos0.clone(), &[0.0; 6]);
-        *counts.entry((theirs, d.ncon)).or_insert(0) += 1;
+        *counts.entry((recorded, d.ncon)).or_insert(0) += 1;
         cases += 1;
-        if d.ncon < theirs {
+        if d.ncon < recorded {
             assert!(
-                d.ncon + 1 == theirs && rim < 0.1 * m.geom_size[0],
-                "{} contacts, not {theirs}: {xml}",
+                d.ncon + 1 == recorded && rim < 0.1 * m.geom_size[0],
+                "{} contacts, not {recorded}: {xml}",
                 d.ncon
             );
             fewer += 1;

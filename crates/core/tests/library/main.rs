@@ -70,12 +70,12 @@ fn as_recorded(prefix: &str) {
         let m = compile(case.xml).unwrap();
         let mut d = Data::new(&m);
         core::forward(&m, &mut d).unwrap();
-        for (field, theirs) in &case.fields {
-            let ours = computed_values(&m, &d, field);
-            let scale = theirs.iter().fold(1.0_f64, |s, x| s.max(x.abs()));
-            let near = ours.len() == theirs.len()
-                && ours.iter().zip(theirs).all(|(x, y)| (x - y).abs() <= 1e-12 * scale);
-            assert!(near, "{}: {field} is {ours:?}, recorded {theirs:?}", case.name);
+        for (field, recorded) in &case.fields {
+            let computed = computed_values(&m, &d, field);
+            let scale = recorded.iter().fold(1.0_f64, |s, x| s.max(x.abs()));
+            let near = computed.len() == recorded.len()
+                && computed.iter().zip(recorded).all(|(x, y)| (x - y).abs() <= 1e-12 * scale);
+            assert!(near, "{}: {field} is {computed:?}, recorded {recorded:?}", case.name);
         }
         // A step accepts everything that the forward pass accepts.
         core::step(&m, &mut d).unwrap();

@@ -26,8 +26,8 @@ fn switched_flags_act_as_in_the_library() {
     let mut wrong = Vec::new();
     for line in text.lines() {
         let parts: Vec<&str> = line.split(" | ").collect();
-        let [name, writes, theirs, xml] = parts[..] else { unreachable!("{line}") };
-        let theirs: f64 = theirs.parse().unwrap();
+        let [name, writes, recorded, xml] = parts[..] else { unreachable!("{line}") };
+        let recorded: f64 = recorded.parse().unwrap();
         let write = |words: &'static str| {
             let words: Vec<&str> = words.split_whitespace().collect();
             let [field, index, value] = words[..] else { unreachable!("{line}") };
@@ -44,11 +44,11 @@ fn switched_flags_act_as_in_the_library() {
             Plan::new(&m, &announced),
             Plan::for_any_value(&m, &announced),
         ];
-        let ours = plans.map(|plan| height(&m, Data::planned(&m, plan), &writes));
-        assert!(ours.iter().all(|x| x.to_bits() == ours[0].to_bits()), "{name}: {ours:?}");
+        let heights = plans.map(|plan| height(&m, Data::planned(&m, plan), &writes));
+        assert!(heights.iter().all(|x| x.to_bits() == heights[0].to_bits()), "{name}: {heights:?}");
         // For a box that falls, a tolerance of 1e-3 m is far less than the distance of one step.
-        if (ours[0] - theirs).abs() > 1e-3 {
-            wrong.push(format!("{name}: {} m, theirs {theirs}", ours[0]));
+        if (heights[0] - recorded).abs() > 1e-3 {
+            wrong.push(format!("{name}: {} m, theirs {recorded}", heights[0]));
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));

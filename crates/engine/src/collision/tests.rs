@@ -147,8 +147,9 @@ fn columns_find_the_same_pairs_as_all_pairs() {
         let size = |g: usize| 0.02 * [1.0, 0.01, 3.0, 30.0][(g * (seed + 3) / 7) % 4];
         let m = cloud(300, [1.0, 0.5 + 0.1 * seed as f64, 0.3], size);
         let (_, near) = tested_pairs(&m);
-        let at = rows::<3>(&m.geom_pos);
-        let touch = |a: usize, b: usize| norm(sub(at[a], at[b])) <= m.geom_rbound[a] + m.geom_rbound[b];
+        let positions = rows::<3>(&m.geom_pos);
+        let touch =
+            |a: usize, b: usize| norm(sub(positions[a], positions[b])) <= m.geom_rbound[a] + m.geom_rbound[b];
         let all = (0..300).flat_map(|a| (0..a).map(move |b| (a, b)));
         let expected = all.filter(|&(a, b)| m.geom_bodyid[a] != m.geom_bodyid[b] && touch(a, b)).count();
         assert_eq!(near, expected);

@@ -74,10 +74,11 @@ fn on_boundary<const N: usize>(matrix: &[[f64; N]; N], g: &[f64; N], guess: f64)
     let mut y = [0.0; N];
     for _ in 0..MOST_STEPS {
         let load = std::array::from_fn(|i| -(g[i] + couple[i] * n));
-        let Some(Tangents { y: at, lambda: multiplier, factor }) = disc.minimum(&load, n, lambda) else {
+        let Some(Tangents { y: minimizer, lambda: multiplier, factor }) = disc.minimum(&load, n, lambda)
+        else {
             break;
         };
-        (y, lambda) = (at, multiplier);
+        (y, lambda) = (minimizer, multiplier);
         let slope = (matrix[0][0] - lambda) * n + dot(couple, y) + g[0];
         if slope < 0.0 {
             low = n;

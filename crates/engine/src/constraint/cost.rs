@@ -346,11 +346,11 @@ mod tests {
         x: &[f64; R],
         v: &[f64; R],
     ) -> Result<(), TestCaseError> {
-        let at = |alpha: f64| -> [f64; R] { std::array::from_fn(|r| x[r] + alpha * v[r]) };
+        let point_at = |alpha: f64| -> [f64; R] { std::array::from_fn(|r| x[r] + alpha * v[r]) };
         let h = 1e-6;
-        let (ahead, behind) = (s.value(&at(h)), s.value(&at(-h)));
+        let (ahead, behind) = (s.value(&point_at(h)), s.value(&point_at(-h)));
         let [change, slope, curvature] = s.along(x, v, 0.7);
-        let (there, here) = (s.value(&at(0.7)).0, s.value(x).0);
+        let (there, here) = (s.value(&point_at(0.7)).0, s.value(x).0);
         prop_assert!(
             (change - (there - here)).abs() < 1e-12 * (1.0 + there + here),
             "{change}, {}",
@@ -360,10 +360,10 @@ mod tests {
         prop_assert_eq!(zero, 0.0);
         prop_assert!(close(start, (ahead.0 - behind.0) / (2.0 * h), here));
         let along = |f: [f64; R]| -(0..R).map(|r| f[r] * v[r]).sum::<f64>();
-        let (next, last) = (s.value(&at(0.7 + h)).1, s.value(&at(0.7 - h)).1);
-        prop_assert!(close(slope, along(s.value(&at(0.7)).1), there));
+        let (next, last) = (s.value(&point_at(0.7 + h)).1, s.value(&point_at(0.7 - h)).1);
+        prop_assert!(close(slope, along(s.value(&point_at(0.7)).1), there));
         // There may be a kink of the force between the two points.
-        if s.state(&at(0.7 + h)) == s.state(&at(0.7 - h)) {
+        if s.state(&point_at(0.7 + h)) == s.state(&point_at(0.7 - h)) {
             let numeric = (along(next) - along(last)) / (2.0 * h);
             prop_assert!(
                 (curvature - numeric).abs() < 1e-3 * (1.0 + curvature.abs()),

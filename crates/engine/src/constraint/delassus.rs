@@ -79,10 +79,10 @@ impl Dual {
 
     /// The diagonal block of A for N rows.
     pub(super) fn delassus<const N: usize>(&self, b: &JacobianBlock, group: RowGroup) -> [[f64; N]; N] {
-        let (at, n) = (self.start[group.block as usize] as usize, b.nrow as usize);
+        let (start, n) = (self.start[group.block as usize] as usize, b.nrow as usize);
         let first = group.first as usize;
         std::array::from_fn(|i| {
-            std::array::from_fn(|j| self.delassus_blocks[at + (first + i) * n + first + j])
+            std::array::from_fn(|j| self.delassus_blocks[start + (first + i) * n + first + j])
         })
     }
 }

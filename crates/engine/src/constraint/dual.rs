@@ -20,8 +20,8 @@ impl PrimalProblem<'_> {
     /// Work units of one sweep over the forces of the island.
     pub(super) fn sweep_cost(&self) -> u64 {
         let [blocks, _, values] = self.s.dual.inverse.size();
-        let mine = self.islands.blocks.len(self.island) as u64;
-        6 * self.pass_costs()[0] + mine * (100 + 4 * values / blocks.max(1))
+        let own_blocks = self.islands.blocks.len(self.island) as u64;
+        6 * self.pass_costs()[0] + own_blocks * (100 + 4 * values / blocks.max(1))
     }
 
     /// `acceleration` ← M⁻¹ Jᵀ f of the island.

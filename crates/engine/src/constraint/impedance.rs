@@ -135,10 +135,10 @@ mod tests {
     #[test]
     fn impedance_is_continuous_and_monotone() {
         for power in [1.0, 1.5, 2.0, 3.0, 6.0] {
-            let at = |r: f64| impedance([0.1, 0.9, 0.002, 0.3, power], r).0;
-            let mut last = at(0.0);
+            let impedance_at = |r: f64| impedance([0.1, 0.9, 0.002, 0.3, power], r).0;
+            let mut last = impedance_at(0.0);
             for i in 1..=4000 {
-                let current = at(-1e-6 * f64::from(i));
+                let current = impedance_at(-1e-6 * f64::from(i));
                 assert!(
                     current >= last && current - last < 0.01,
                     "power {power}, step {i}: {last} then {current}"

@@ -34,17 +34,17 @@ impl Iterate {
     /// Makes the Hessian of an island the current one, with the layout that it had. Islands share no degrees of
     /// freedom, so one list of positions (`local`) serves all.
     pub(super) fn select_island(&mut self, island: usize) {
-        let at = self.hessian.island();
-        if at == island {
+        let current = self.hessian.island();
+        if current == island {
             return;
         }
-        let most = at.max(island);
+        let most = current.max(island);
         if self.island_hessians.len() <= most {
             self.island_hessians.resize_with(most + 1, Hessian::default);
         }
-        std::mem::swap(&mut self.hessian, &mut self.island_hessians[at]);
+        std::mem::swap(&mut self.hessian, &mut self.island_hessians[current]);
         std::mem::swap(&mut self.hessian, &mut self.island_hessians[island]);
-        std::mem::swap(&mut self.hessian.local, &mut self.island_hessians[at].local);
+        std::mem::swap(&mut self.hessian.local, &mut self.island_hessians[current].local);
     }
 
     pub(super) fn resize(&mut self, nv: usize, nefc: usize) {

@@ -333,15 +333,15 @@ impl ConstraintJacobian {
 
     /// Adds a column to the last block.
     fn append(&mut self, column: i32, value: f64) {
-        let (at, col) = (self.used_values, self.used_columns);
-        (self.used_values, self.used_columns) = (at + 1, col + 1);
-        if self.values.len() <= at {
-            self.values.resize(at + 1, 0.0);
+        let (index, col) = (self.used_values, self.used_columns);
+        (self.used_values, self.used_columns) = (index + 1, col + 1);
+        if self.values.len() <= index {
+            self.values.resize(index + 1, 0.0);
         }
         if self.columns.len() <= col {
             self.columns.resize(col + 1, 0);
         }
-        (self.values[at], self.columns[col]) = (value, column as u32);
+        (self.values[index], self.columns[col]) = (value, column as u32);
         if let Some(b) = self.blocks.last_mut() {
             b.ncol += 1;
         }

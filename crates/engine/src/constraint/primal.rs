@@ -83,9 +83,12 @@ impl<'a> PrimalProblem<'a> {
     /// Work units of one pass over the rows and degrees of freedom of the island, and of the products of columns.
     pub(super) fn pass_costs(&self) -> [u64; 2] {
         let [blocks, columns, values] = self.jac.size();
-        let (mine, all) = (self.islands.blocks.len(self.island) as u64, blocks.max(1));
+        let (own_blocks, all) = (self.islands.blocks.len(self.island) as u64, blocks.max(1));
         let dofs: usize = self.dofs().map(|r| r.len()).sum();
-        [50 + mine * (15 + 2 * values / all) + 5 * dofs as u64, mine * (values / all) * (columns / all) / 2]
+        [
+            50 + own_blocks * (15 + 2 * values / all) + 5 * dofs as u64,
+            own_blocks * (values / all) * (columns / all) / 2,
+        ]
     }
 
     /// The degrees of freedom of the island.

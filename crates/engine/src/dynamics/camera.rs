@@ -9,8 +9,8 @@ use crate::model::{Fields, Model};
 pub(crate) fn cameras(m: &Model, d: &mut Fields) {
     for c in 0..m.ncam {
         let b = m.cam_bodyid[c] as usize;
-        let (at, turn) = (rows::<3>(&d.xpos)[b], rows::<4>(&d.xquat)[b]);
-        rows_mut::<3>(&mut d.cam_xpos)[c] = add(rotate(rows::<3>(&m.cam_pos)[c], turn), at);
+        let (position, turn) = (rows::<3>(&d.xpos)[b], rows::<4>(&d.xquat)[b]);
+        rows_mut::<3>(&mut d.cam_xpos)[c] = add(rotate(rows::<3>(&m.cam_pos)[c], turn), position);
         rows_mut::<9>(&mut d.cam_xmat)[c] = quat_to_mat(quat_mul(turn, rows::<4>(&m.cam_quat)[c]));
         if m.cam_mode[c] != camlight::FIXED {
             move_camera(m, d, c, b);
@@ -45,8 +45,8 @@ fn move_camera(m: &Model, d: &mut Fields, c: usize, b: usize) {
 pub(crate) fn lights(m: &Model, d: &mut Fields) {
     for l in 0..m.nlight {
         let b = m.light_bodyid[l] as usize;
-        let (at, turn) = (rows::<3>(&d.xpos)[b], rows::<4>(&d.xquat)[b]);
-        rows_mut::<3>(&mut d.light_xpos)[l] = add(rotate(rows::<3>(&m.light_pos)[l], turn), at);
+        let (position, turn) = (rows::<3>(&d.xpos)[b], rows::<4>(&d.xquat)[b]);
+        rows_mut::<3>(&mut d.light_xpos)[l] = add(rotate(rows::<3>(&m.light_pos)[l], turn), position);
         rows_mut::<3>(&mut d.light_xdir)[l] = rotate(rows::<3>(&m.light_dir)[l], turn);
         if m.light_mode[l] != camlight::FIXED {
             move_light(m, d, l, b);
@@ -109,18 +109,18 @@ pub fn set_const(m: &mut Model, d: &Fields) {
     let (xpos, com, xquat) = (rows::<3>(&d.xpos), rows::<3>(&d.subtree_com), rows::<4>(&d.xquat));
     for c in 0..m.ncam {
         let b = m.cam_bodyid[c] as usize;
-        let at = add(rotate(rows::<3>(&m.cam_pos)[c], xquat[b]), xpos[b]);
-        rows_mut::<3>(&mut m.cam_pos0)[c] = sub(at, xpos[b]);
+        let position = add(rotate(rows::<3>(&m.cam_pos)[c], xquat[b]), xpos[b]);
+        rows_mut::<3>(&mut m.cam_pos0)[c] = sub(position, xpos[b]);
         rows_mut::<3>(&mut m.cam_poscom0)[c] =
-            sub(at, com[usize::try_from(m.cam_targetbodyid[c]).unwrap_or(b)]);
+            sub(position, com[usize::try_from(m.cam_targetbodyid[c]).unwrap_or(b)]);
         rows_mut::<9>(&mut m.cam_mat0)[c] = quat_to_mat(quat_mul(xquat[b], rows::<4>(&m.cam_quat)[c]));
     }
     for l in 0..m.nlight {
         let b = m.light_bodyid[l] as usize;
-        let at = add(rotate(rows::<3>(&m.light_pos)[l], xquat[b]), xpos[b]);
-        rows_mut::<3>(&mut m.light_pos0)[l] = sub(at, xpos[b]);
+        let position = add(rotate(rows::<3>(&m.light_pos)[l], xquat[b]), xpos[b]);
+        rows_mut::<3>(&mut m.light_pos0)[l] = sub(position, xpos[b]);
         rows_mut::<3>(&mut m.light_poscom0)[l] =
-            sub(at, com[usize::try_from(m.light_targetbodyid[l]).unwrap_or(b)]);
+            sub(position, com[usize::try_from(m.light_targetbodyid[l]).unwrap_or(b)]);
         rows_mut::<3>(&mut m.light_dir0)[l] = rotate(rows::<3>(&m.light_dir)[l], xquat[b]);
     }
 }

@@ -46,7 +46,7 @@ pub(crate) struct Frames {
 /// The origin and the axes of a body, world frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct BodyPose {
-    at: Lane3,
+    pos: Lane3,
     axes: Axes,
 }
 
@@ -59,7 +59,7 @@ struct BodyParameters {
     mocap: Option<usize>,
     /// Pose in the frame of its parent, before its joints move it. `straight` is set if the orientation is the
     /// identity.
-    at: Vec3,
+    pos: Vec3,
     quat: Quat,
     axes: [Vec3; 3],
     straight: bool,
@@ -114,7 +114,7 @@ impl Frames {
             coordinate: m.jnt_qposadr[j] as usize,
             ..JointParameters::default()
         };
-        let world = BodyPose { at: lane3([0.0; 3]), axes: axes(&EYE) };
+        let world = BodyPose { pos: lane3([0.0; 3]), axes: axes(&EYE) };
         let mut frames = Frames {
             bodies: (0..m.nbody).map(body).collect(),
             joints: (0..m.njnt).map(joint).collect(),
@@ -128,11 +128,11 @@ impl Frames {
     pub(crate) fn load(&mut self, m: &Model) {
         let places = rows::<3>(&m.body_pos).iter().zip(rows::<4>(&m.body_quat));
         let inertial = rows::<3>(&m.body_ipos).iter().zip(rows::<4>(&m.body_iquat)).zip(&m.body_sameframe);
-        for (f, ((&at, &quat), ((&com, &principal), &same))) in
+        for (f, ((&pos, &quat), ((&com, &principal), &same))) in
             self.bodies.iter_mut().zip(places.zip(inertial))
         {
             let quat = quat_normalize(quat);
-            (f.at, f.quat, f.axes, f.straight) = (at, quat, columns(quat), quat == IDENTITY);
+            (f.pos, f.quat, f.axes, f.straight) = (pos, quat, columns(quat), quat == IDENTITY);
             (f.com, f.principal, f.same) = (com, columns(principal), same);
         }
         let anchors = rows::<3>(&m.jnt_pos).iter().zip(rows::<3>(&m.jnt_axis));
@@ -161,29 +161,30 @@ pub(crate) fn bodies(d: &mut Fields, frames: &mut Frames) {
         let mut here;
         if f.free {
             let (j, q) = (f.joints.start, joints[f.joints.start].coordinate);
-            let at = [qpos[q], qpos[q + 1], qpos[q + 2]];
-            here = BodyPose { at: lane3(at), axes: axes(&quat_to_mat(quaternion(&qpos[q + 3..]))) };
-            (xanchor[j], xaxis[j]) = (at, joints[j].axis);
+            let pos = [qpos[q], qpos[q + 1], qpos[q + 2]];
+            here = BodyPose { pos: lane3(pos), axes: axes(&quat_to_mat(quaternion(&qpos[q + 3..]))) };
+            (xanchor[j], xaxis[j]) = (pos, joints[j].axis);
         } else {
             let above = &poses[f.parent];
             here = match f.mocap {
                 Some(id) => BodyPose {
-                    at: above.at + along(&above.axes, mocap_pos[id]),
+                    pos: above.pos + along(&above.axes, mocap_pos[id]),
                     axes: product(&above.axes, &columns(quat_normalize(mocap_quat[id]))),
                 },
                 None => BodyPose {
-                    at: above.at + along(&above.axes, f.at),
+                    pos: above.pos + along(&above.axes, f.pos),
                     axes: if f.straight { above.axes } else { product(&above.axes, &f.axes) },
                 },
             };
             let out = xanchor[f.joints.clone()].iter_mut().zip(&mut xaxis[f.joints.clone()]);
             for (joint, (xanchor, xaxis)) in joints[f.joints.clone()].iter().zip(out) {
                 let axis = along(&here.axes, joint.axis);
-                let anchor = if joint.central { here.at } else { here.at + along(&here.axes, joint.anchor) };
+                let anchor =
+                    if joint.central { here.pos } else { here.pos + along(&here.axes, joint.anchor) };
                 (*xanchor, *xaxis) = (vec3(anchor), vec3(axis));
                 match joint.kind {
                     joint::SLIDE => {
-                        here.at += axis * (qpos[joint.coordinate] - joint.reference);
+                        here.pos += axis * (qpos[joint.coordinate] - joint.reference);
                         continue;
                     }
                     joint::HINGE => {
@@ -194,15 +195,16 @@ pub(crate) fn bodies(d: &mut Fields, frames: &mut Frames) {
                 }
                 // A rotation about an anchor off the origin moves the origin.
                 if !joint.central {
-                    here.at = anchor - along(&here.axes, joint.anchor);
+                    here.pos = anchor - along(&here.axes, joint.anchor);
                 }
             }
         }
         poses[i] = here;
-        (xpos[i], xmat[i]) = (vec3(here.at), matrix(&here.axes));
+        (xpos[i], xmat[i]) = (vec3(here.pos), matrix(&here.axes));
         // Coinciding frames are copied, which is exact.
         let same_axes = matches!(f.same, sameframe::BODY | sameframe::BODYROT);
-        xipos[i] = if f.same == sameframe::BODY { xpos[i] } else { vec3(here.at + along(&here.axes, f.com)) };
+        xipos[i] =
+            if f.same == sameframe::BODY { xpos[i] } else { vec3(here.pos + along(&here.axes, f.com)) };
         ximat[i] = if same_axes { xmat[i] } else { matrix(&product(&here.axes, &f.principal)) };
     }
 }

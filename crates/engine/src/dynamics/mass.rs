@@ -114,8 +114,8 @@ pub fn factor(m: &Model, ld: &mut [f64], diag_inv: &mut [f64], dofs: Range<usize
     while end > dofs.start {
         if let Some(n) = triangle::size_before(m, end) {
             let first = end - n;
-            let at = m.M_rowadr[first] as usize;
-            let failed = triangle::factor_rows(n, &mut ld[at..], &mut diag_inv[first..]);
+            let start = m.M_rowadr[first] as usize;
+            let failed = triangle::factor_rows(n, &mut ld[start..], &mut diag_inv[first..]);
             bad = failed.map(|k| first + k).or(bad);
             end = first;
             continue;
@@ -152,10 +152,10 @@ fn eliminate_four(m: &Model, ld: &mut [f64], diag_inv: &mut [f64], first: usize)
         diag_inv[k] = inv;
         // The other rows of the block. The chain of an ancestor is a prefix of the columns of this row.
         for i in (first..k).rev() {
-            let at = (m.M_rowadr[i] - m.M_rowadr[first]) as usize;
+            let offset = (m.M_rowadr[i] - m.M_rowadr[first]) as usize;
             let len = m.M_rownnz[i] as usize;
             let factor = row[len - 1] * inv;
-            subtract(&mut before[at..at + len], &row[..len], factor);
+            subtract(&mut before[offset..offset + len], &row[..len], factor);
         }
     }
     let depth = m.M_rownnz[first] as usize - 1;
@@ -256,7 +256,7 @@ fn chain(m: &Model, end: usize) -> usize {
 /// than the previous one.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn four_rows(block: &[f64], len: usize) -> [&[f64]; 4] {
-    [0, len, 2 * len + 1, 3 * len + 3].map(|at| &block[at..at + len])
+    [0, len, 2 * len + 1, 3 * len + 3].map(|start| &block[start..start + len])
 }
 
 /// target -= factor row
@@ -424,13 +424,13 @@ pub(crate) fn add_outer(m: &Model, dofs: &[i32], values: &[f64], s: f64, out: &m
         let start = m.M_rowadr[i as usize] as usize;
         let columns = &m.M_colind[start..diagonal(m, i as usize) + 1];
         // Both lists are in ascending order.
-        let mut at = 0;
+        let mut index = 0;
         for (&j, y) in dofs.iter().zip(values) {
-            while at < columns.len() && columns[at] < j {
-                at += 1;
+            while index < columns.len() && columns[index] < j {
+                index += 1;
             }
-            if at < columns.len() && columns[at] == j {
-                out[start + at] += s * x * y;
+            if index < columns.len() && columns[index] == j {
+                out[start + index] += s * x * y;
             }
         }
     }

@@ -19,15 +19,15 @@ pub(crate) fn frame(m: &Model, d: &Fields, objtype: i32, id: usize) -> Option<Ob
     let (pos, mat, body) = match objtype {
         t if t == Obj::Body as i32 => (&d.xipos, &d.ximat, Some(id)),
         t if t == Obj::XBody as i32 => (&d.xpos, &d.xmat, Some(id)),
-        t if t == Obj::Geom as i32 => (&d.geom_xpos, &d.geom_xmat, at(&m.geom_bodyid, id)),
-        t if t == Obj::Site as i32 => (&d.site_xpos, &d.site_xmat, at(&m.site_bodyid, id)),
-        t if t == Obj::Camera as i32 => (&d.cam_xpos, &d.cam_xmat, at(&m.cam_bodyid, id)),
+        t if t == Obj::Geom as i32 => (&d.geom_xpos, &d.geom_xmat, body_of(&m.geom_bodyid, id)),
+        t if t == Obj::Site as i32 => (&d.site_xpos, &d.site_xmat, body_of(&m.site_bodyid, id)),
+        t if t == Obj::Camera as i32 => (&d.cam_xpos, &d.cam_xmat, body_of(&m.cam_bodyid, id)),
         _ => return None,
     };
     Some(ObjectFrame { pos: *rows(pos).get(id)?, mat: *rows(mat).get(id)?, body: body? })
 }
 
-fn at(bodies: &[i32], id: usize) -> Option<usize> {
+fn body_of(bodies: &[i32], id: usize) -> Option<usize> {
     bodies.get(id).map(|&b| b as usize)
 }
 
@@ -37,9 +37,9 @@ pub(crate) fn orientation(m: &Model, d: &Fields, objtype: i32, id: usize) -> Opt
     let (frame, body) = match objtype {
         t if t == Obj::XBody as i32 => return rows(&d.xquat).get(id).copied(),
         t if t == Obj::Body as i32 => (&m.body_iquat, Some(id)),
-        t if t == Obj::Geom as i32 => (&m.geom_quat, at(&m.geom_bodyid, id)),
-        t if t == Obj::Site as i32 => (&m.site_quat, at(&m.site_bodyid, id)),
-        t if t == Obj::Camera as i32 => (&m.cam_quat, at(&m.cam_bodyid, id)),
+        t if t == Obj::Geom as i32 => (&m.geom_quat, body_of(&m.geom_bodyid, id)),
+        t if t == Obj::Site as i32 => (&m.site_quat, body_of(&m.site_bodyid, id)),
+        t if t == Obj::Camera as i32 => (&m.cam_quat, body_of(&m.cam_bodyid, id)),
         _ => return None,
     };
     Some(quat_mul(*rows(&d.xquat).get(body?)?, *rows(frame).get(id)?))

@@ -67,9 +67,11 @@ pub(super) fn solve_at<const N: usize, const T: usize>(
     ld: &[f64],
     diag_inv: &[f64],
     x: &mut [f64],
-    at: usize,
+    start: usize,
 ) {
-    if let (Some(ld), Some(diag_inv), Some(x)) = (ld.first_chunk(), diag_inv.first_chunk(), part_mut(x, at)) {
+    if let (Some(ld), Some(diag_inv), Some(x)) =
+        (ld.first_chunk(), diag_inv.first_chunk(), part_mut(x, start))
+    {
         solve::<N, T>(ld, diag_inv, x);
     }
 }
@@ -101,15 +103,15 @@ fn less_part<const N: usize>(s: f64, row: &[f64], x: &[f64]) -> f64 {
     }
 }
 
-/// The N numbers starting at index `at`.
+/// The N numbers starting at index `start`.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(super) fn part<const N: usize>(numbers: &[f64], at: usize) -> Option<&[f64; N]> {
-    numbers.get(at..)?.first_chunk()
+pub(super) fn part<const N: usize>(numbers: &[f64], start: usize) -> Option<&[f64; N]> {
+    numbers.get(start..)?.first_chunk()
 }
 
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(super) fn part_mut<const N: usize>(numbers: &mut [f64], at: usize) -> Option<&mut [f64; N]> {
-    numbers.get_mut(at..)?.first_chunk_mut()
+pub(super) fn part_mut<const N: usize>(numbers: &mut [f64], start: usize) -> Option<&mut [f64; N]> {
+    numbers.get_mut(start..)?.first_chunk_mut()
 }
 
 /// Factorizes a packed triangle of N rows and T numbers in place.

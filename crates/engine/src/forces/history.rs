@@ -40,8 +40,8 @@ impl<'a> Ring<'a> {
     }
 
     fn value(&self, i: usize) -> &'a [f64] {
-        let at = self.place(i) * self.dim;
-        &self.values[at..at + self.dim]
+        let start = self.place(i) * self.dim;
+        &self.values[start..start + self.dim]
     }
 
     /// The first sample that is not older than `time`, or n if all are older.

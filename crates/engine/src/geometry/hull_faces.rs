@@ -65,7 +65,7 @@ impl HullFaces {
             && out.vertices.iter().all(|&v| (v as usize) < vertices)
             && out.around.iter().all(|&s| (s as usize) < out.faces.len())
             && out.first.is_sorted()
-            && out.first.iter().all(|&at| at as usize <= out.around.len())
+            && out.first.iter().all(|&start| start as usize <= out.around.len())
             && (out.faces.is_empty() || out.first.len() == vertices + 1);
         good.then_some(out)
     }
@@ -129,8 +129,8 @@ fn merge(vert: &[Vec3], hull: &Hull) -> HullFaces {
     }
     order::sort_by(&mut edges, Ord::cmp);
     let across = |a: i32, b: i32| {
-        let at = edges.partition_point(|&(x, y, _)| (x, y) < (b, a));
-        edges.get(at).filter(|&&(x, y, _)| (x, y) == (b, a)).map(|e| e.2)
+        let index = edges.partition_point(|&(x, y, _)| (x, y) < (b, a));
+        edges.get(index).filter(|&&(x, y, _)| (x, y) == (b, a)).map(|e| e.2)
     };
     let mut out = HullFaces::default();
     let mut side_of = vec![usize::MAX; hull.face.len()];
@@ -175,12 +175,12 @@ fn merge(vert: &[Vec3], hull: &Hull) -> HullFaces {
 /// Appends the vertices of a border in order, starting with the first edge. The edges are sorted by their first
 /// vertex.
 fn walk_around(border: &[(i32, i32)], vertices: &mut Vec<u32>) {
-    let Some(&(mut at, _)) = border.first() else { return };
+    let Some(&(mut vertex, _)) = border.first() else { return };
     for _ in 0..border.len() {
-        vertices.push(at as u32);
-        let i = border.partition_point(|&(a, _)| a < at);
+        vertices.push(vertex as u32);
+        let i = border.partition_point(|&(a, _)| a < vertex);
         match border.get(i) {
-            Some(&(a, b)) if a == at => at = b,
+            Some(&(a, b)) if a == vertex => vertex = b,
             _ => break,
         }
     }

@@ -119,20 +119,20 @@ fn descend(
     start: Vec3,
     step: impl Fn(Vec3, Vec3, f64, &dyn Fn(Vec3, Vec3, Vec3) -> Vec3) -> Vec3,
 ) -> (Vec3, Vec3, f64) {
-    let mut at = (start, support(a, b, start).point);
-    let mut h = dot(at.0, at.1);
+    let mut current = (start, support(a, b, start).point);
+    let mut h = dot(current.0, current.1);
     let mut part = 1.0;
     let next_step = |a: &ConvexBody, b: &ConvexBody, (n, w): (Vec3, Vec3), h: f64| {
         step(n, w, h, &|n, s, t| add(a.support_hessian(n, s, t), b.support_hessian(n, s, t)))
     };
-    let mut delta = next_step(a, b, at, h);
+    let mut delta = next_step(a, b, current, h);
     for _ in 0..MOST_STEPS {
-        let n = normalize(add_scaled(at.0, delta, part)).0;
+        let n = normalize(add_scaled(current.0, delta, part)).0;
         let w = support(a, b, n).point;
         let (height, moved) = (dot(n, w), part * norm(delta));
         if height < h {
-            (at, h, part) = ((n, w), height, 1.0);
-            delta = next_step(a, b, at, h);
+            (current, h, part) = ((n, w), height, 1.0);
+            delta = next_step(a, b, current, h);
         } else {
             part *= 0.25;
         }
@@ -140,7 +140,7 @@ fn descend(
             break;
         }
     }
-    (at.0, at.1, h)
+    (current.0, current.1, h)
 }
 
 /// The nearest or deepest points of both bodies along the direction n of least extent. On an edge normal to n, the
@@ -183,9 +183,9 @@ fn witness(a: &mut ConvexBody, b: &mut ConvexBody, n: Vec3, h: f64, limits: Limi
     }
 }
 
-/// Moves a point along an edge direction until its coordinate along the edge is `at`.
-fn move_along_edge(line: Vec3, edge: Vec3, at: f64) -> Vec3 {
-    add_scaled(line, edge, at - dot(edge, line))
+/// Moves a point along an edge direction until its coordinate along the edge is `coordinate`.
+fn move_along_edge(line: Vec3, edge: Vec3, coordinate: f64) -> Vec3 {
+    add_scaled(line, edge, coordinate - dot(edge, line))
 }
 
 /// The midpoint of the common part of two parallel edges, as a coordinate along them. The ends of the edges are

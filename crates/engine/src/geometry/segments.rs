@@ -78,9 +78,12 @@ mod tests {
             let [x, y] = closest_points(&a, &b);
             let between = sub(b.at(y), a.at(x));
             // Half the derivatives of the squared distance: each is zero, or, at an end, it points outwards.
-            for (slope, at) in [(-dot(between, a.half), x), (dot(between, b.half), y)] {
-                let out = at.abs() == 1.0 && slope * at <= 1e-9;
-                assert!(at.abs() <= 1.0 && (slope.abs() < 1e-9 || out), "case {case}: {slope} at {at}");
+            for (slope, parameter) in [(-dot(between, a.half), x), (dot(between, b.half), y)] {
+                let out = parameter.abs() == 1.0 && slope * parameter <= 1e-9;
+                assert!(
+                    parameter.abs() <= 1.0 && (slope.abs() < 1e-9 || out),
+                    "case {case}: {slope} at {parameter}"
+                );
             }
         }
     }

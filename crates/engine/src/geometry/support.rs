@@ -160,12 +160,15 @@ impl<'a> ConvexBody<'a> {
                 geom::CYLINDER => consider(s.axis(2)),
                 geom::MESH => {
                     let vertex = self.mesh_vertex(&s.mesh(), mat_t_mul_vec(&s.mat, dir));
-                    let at = |v: usize| s.mesh().vertex(v);
+                    let vertex_at = |v: usize| s.mesh().vertex(v);
                     let Some(faces) = s.mesh().hull_faces else { return List::new() };
                     for (side, place) in faces.around(vertex) {
                         let list = faces.vertices(side);
                         let other = list[(place + 1) % list.len()] as usize;
-                        consider(mat_mul_vec(&s.mat, unit_vector(sub(at(other), at(vertex))).0));
+                        consider(mat_mul_vec(
+                            &s.mat,
+                            unit_vector(sub(vertex_at(other), vertex_at(vertex))).0,
+                        ));
                     }
                 }
                 _ => {}

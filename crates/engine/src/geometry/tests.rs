@@ -99,10 +99,10 @@ impl Assets {
 
 /// The recorded cases, from the folder that the environment variable names or from the repository. The flag is true
 /// for the former.
-fn cases(file: &str, ours: &str) -> (String, bool) {
+fn cases(file: &str, committed: &str) -> (String, bool) {
     match std::env::var("LABSPEC_GEOMETRY") {
         Ok(folder) => (std::fs::read_to_string(format!("{folder}/{file}")).unwrap(), true),
-        Err(_) => (ours.to_string(), false),
+        Err(_) => (committed.to_string(), false),
     }
 }
 
@@ -115,7 +115,7 @@ fn write_table(file: &str, table: &str) {
 
 /// Cases beyond the bound for a known reason: quantity or pair, numbers of the cases, reason. A case beyond the bound
 /// that is not listed fails the test, and so does a listed case within the bound.
-type Known = (&'static str, &'static [usize], &'static str);
+type AllowedCases = (&'static str, &'static [usize], &'static str);
 
 /// Cases of one pair of types.
 #[derive(Default)]
@@ -143,7 +143,7 @@ impl ToleranceReport {
 
     /// Fails if the cases beyond the bound are not exactly the listed ones. Results of other recordings are only
     /// printed.
-    fn finish(self, print: bool, allowed: &[Known]) {
+    fn finish(self, print: bool, allowed: &[AllowedCases]) {
         let (mut text, mut wrong) = (String::new(), String::new());
         for (name, r) in &self.0 {
             let (number, worst) = (r.number, r.worst);
@@ -277,7 +277,8 @@ fn concentric(a: &Shape, b: &Shape) -> bool {
 const FLAT: &str =
     "a face or a line that lies on a face: all of its points are as near, and each side names another";
 
-const DISTANCES: &[Known] = &[("box-box fromto", &[1235], FLAT), ("capsule-cylinder fromto", &[829], FLAT)];
+const DISTANCES: &[AllowedCases] =
+    &[("box-box fromto", &[1235], FLAT), ("capsule-cylinder fromto", &[829], FLAT)];
 
 /// Distances of height fields are excluded. MuJoCo measures them with the margins of its contacts: for a maximum
 /// distance of 1000 m, it reports 490 m of penetration for bodies of one metre. `tests/truth.rs` tests them.
@@ -333,7 +334,7 @@ fn distances_are_those_of_mujoco() {
 /// Two contacts at the same position, or one on the line between two others.
 const TWICE: &str = "one side lists a point of the face or line twice: 1e-16 m apart, or between two others";
 
-const CONTACTS: &[Known] = &[
+const CONTACTS: &[AllowedCases] = &[
     ("box-mesh number", &[1248], TWICE),
     ("capsule-cylinder number", &[829], TWICE),
     ("cylinder-box number", &[1134], TWICE),
@@ -442,16 +443,16 @@ fn hostile_numbers_are_harmless() {
     let odd = [0.0, -1.0, 1e-300, 1e-9, 0.3, 1.0, 1e9, 1e300, f64::INFINITY, f64::NAN];
     let mut work = Narrow::default();
     let shape = |kind: usize, k: usize| {
-        let at = |i: usize| odd[(k * (i + 1) + i) % odd.len()];
-        let mat = if k.is_multiple_of(3) { EYE } else { std::array::from_fn(|i| at(i + k)) };
-        let pos = if k.is_multiple_of(2) { [0.0; 3] } else { [at(3), at(4), at(5)] };
-        let mut s = Shape::new(kind as i32, [at(0), at(1), at(2)], pos, mat);
+        let number_at = |i: usize| odd[(k * (i + 1) + i) % odd.len()];
+        let mat = if k.is_multiple_of(3) { EYE } else { std::array::from_fn(|i| number_at(i + k)) };
+        let pos = if k.is_multiple_of(2) { [0.0; 3] } else { [number_at(3), number_at(4), number_at(5)] };
+        let mut s = Shape::new(kind as i32, [number_at(0), number_at(1), number_at(2)], pos, mat);
         if s.kind == geom::MESH {
             s.mesh = Some(assets.mesh(["wedge", "prism", "stone"][k % 3]));
         }
         if s.kind == geom::HFIELD {
             let (head, samples) = assets.field.as_ref().unwrap();
-            let size = [at(6), at(7), at(8), at(9)];
+            let size = [number_at(6), number_at(7), number_at(8), number_at(9)];
             s.field =
                 Some(HeightField { size, nrow: head[0] as usize, ncol: head[1] as usize, data: samples });
         }

@@ -29,10 +29,10 @@ pub(crate) fn sort<T: Ord>(items: &mut [T]) {
 fn short_sort<T>(items: &mut [T], less: &mut dyn FnMut(&T, &T) -> bool) {
     let mut moves = MOVES * items.len();
     for end in 1..items.len() {
-        let mut at = end;
-        while at > 0 && less(&items[at], &items[at - 1]) {
-            items.swap(at, at - 1);
-            at -= 1;
+        let mut index = end;
+        while index > 0 && less(&items[index], &items[index - 1]) {
+            items.swap(index, index - 1);
+            index -= 1;
             moves -= 1;
             if moves == 0 {
                 return heap_sort(items, less);
@@ -54,17 +54,17 @@ fn heap_sort<T>(items: &mut [T], less: &mut dyn FnMut(&T, &T) -> bool) {
 }
 
 /// Swaps an item with its larger child until no child is larger.
-fn sink<T>(heap: &mut [T], mut at: usize, less: &mut dyn FnMut(&T, &T) -> bool) {
+fn sink<T>(heap: &mut [T], mut index: usize, less: &mut dyn FnMut(&T, &T) -> bool) {
     loop {
-        let mut below = 2 * at + 1;
+        let mut below = 2 * index + 1;
         if below + 1 < heap.len() && less(&heap[below], &heap[below + 1]) {
             below += 1;
         }
-        if below >= heap.len() || !less(&heap[at], &heap[below]) {
+        if below >= heap.len() || !less(&heap[index], &heap[below]) {
             return;
         }
-        heap.swap(at, below);
-        at = below;
+        heap.swap(index, below);
+        index = below;
     }
 }
 

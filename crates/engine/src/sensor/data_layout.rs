@@ -19,11 +19,11 @@ pub fn size(fields: &[Field], mask: i32) -> usize {
 
 /// Writes the fields of a mask one after the other. `values` contains the values of all fields, in order.
 pub(super) fn write(mask: i32, values: &[&[f64]], out: &mut [f64]) {
-    let mut at = 0;
+    let mut offset = 0;
     for (_, value) in values.iter().enumerate().filter(|(i, _)| mask & (1 << i) != 0) {
-        if let Some(to) = out.get_mut(at..at + value.len()) {
+        if let Some(to) = out.get_mut(offset..offset + value.len()) {
             to.copy_from_slice(value);
         }
-        at += value.len();
+        offset += value.len();
     }
 }

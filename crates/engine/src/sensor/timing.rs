@@ -16,13 +16,13 @@ use crate::sensor::body_force;
 /// The range of the buffer of a sensor, and its number of samples; `None` if it has no buffer.
 fn buffer(m: &Model, s: usize) -> Option<(std::ops::Range<usize>, usize)> {
     let n = usize::try_from(m.sensor_history[2 * s]).ok().filter(|&n| n > 0)?;
-    let at = usize::try_from(m.sensor_historyadr[s]).ok()?;
-    Some((at..at + history::size(n, m.sensor_dim[s] as usize), n))
+    let address = usize::try_from(m.sensor_historyadr[s]).ok()?;
+    Some((address..address + history::size(n, m.sensor_dim[s] as usize), n))
 }
 
 /// Whether a reading is due: at least one interval has passed since the last tick.
-fn due(m: &Model, d: &Fields, s: usize, at: usize) -> bool {
-    d.history[at] + m.sensor_interval[2 * s] <= d.time
+fn due(m: &Model, d: &Fields, s: usize, address: usize) -> bool {
+    d.history[address] + m.sensor_interval[2 * s] <= d.time
 }
 
 /// Writes a past value. Returns `false` if the sensor reports its current reading.

@@ -172,8 +172,9 @@ fn trees(m: &Model) -> bool {
     let before = |list: &[i32], from: usize| list.iter().enumerate().skip(from).all(|(i, &p)| p < i as i32);
     let (mut q, mut v) = (0, 0);
     let joints =
-        m.jnt_type.iter().zip(m.jnt_qposadr.iter().zip(&m.jnt_dofadr)).all(|(&kind, (&at, &dof))| {
-            let good = (joint::FREE..=joint::HINGE).contains(&kind) && at as usize == q && dof as usize == v;
+        m.jnt_type.iter().zip(m.jnt_qposadr.iter().zip(&m.jnt_dofadr)).all(|(&kind, (&address, &dof))| {
+            let good =
+                (joint::FREE..=joint::HINGE).contains(&kind) && address as usize == q && dof as usize == v;
             (q, v) = (q + joint::nq(kind), v + joint::nv(kind));
             good
         });
@@ -217,7 +218,7 @@ fn has_rows_of_path(m: &Model, k: usize) -> bool {
         && columns.last() == Some(&(k as i32))
         && columns.is_sorted_by(|a, b| a < b)
         && whole.is_sorted_by(|a, b| a < b)
-        && usize::try_from(m.D_diag[k]).ok().and_then(|at| whole.get(at)) == Some(&(k as i32))
+        && usize::try_from(m.D_diag[k]).ok().and_then(|address| whole.get(address)) == Some(&(k as i32))
         // The row contains the path to the root, except if M is diagonal.
         && (m.dof_simplenum[k] > 0 || walk::upward(m, k as i32).eq(columns.iter().rev().map(|&c| c as usize)))
 }
@@ -263,8 +264,8 @@ fn shapes(m: &Model) -> bool {
         let corners = m.mesh_vertnum[id];
         let faces = element_range(m.mesh_faceadr[id], m.mesh_facenum[id]);
         let in_range = m.mesh_face.as_chunks::<3>().0[faces].iter().flatten().all(|&v| v < corners);
-        let Ok(at) = usize::try_from(m.mesh_graphadr[id]) else { return corners > 0 && in_range };
-        let Some(hull) = m.mesh_graph.get(at..).and_then(Hull::from_graph) else { return false };
+        let Ok(address) = usize::try_from(m.mesh_graphadr[id]) else { return corners > 0 && in_range };
+        let Some(hull) = m.mesh_graph.get(address..).and_then(Hull::from_graph) else { return false };
         let n = hull.vertex.len();
         in_range
             && hull.vertex.iter().chain(hull.face.iter().flatten()).all(|&v| v >= 0 && v < corners)
@@ -378,6 +379,9 @@ fn measures(m: &Model, s: usize) -> bool {
 /// Checks the length of a buffer of past values.
 fn buffer(m: &Model, samples: i32, adr: i32, dim: i32) -> bool {
     let Ok(n) = usize::try_from(samples) else { return false };
-    let (Ok(at), Ok(dim)) = (usize::try_from(adr), usize::try_from(dim)) else { return n == 0 };
-    n == 0 || n < MOST && dim < MOST && at.saturating_add(crate::forces::history::size(n, dim)) <= m.nhistory
+    let (Ok(address), Ok(dim)) = (usize::try_from(adr), usize::try_from(dim)) else { return n == 0 };
+    n == 0
+        || n < MOST
+            && dim < MOST
+            && address.saturating_add(crate::forces::history::size(n, dim)) <= m.nhistory
 }

@@ -42,7 +42,7 @@ pub(super) fn element(view: View, index: Option<f64>) -> Access {
 /// The elements that an operation stores directly.
 pub(super) fn written(op: &Op, unit: &SsaFunction) -> Option<Access> {
     match *op {
-        Op::Store(field, at, _) => Some(Access { field, first: at as usize, count: Some(1) }),
+        Op::Store(field, index, _) => Some(Access { field, first: index as usize, count: Some(1) }),
         Op::StoreAt(view, index, _) => Some(element(view, unit.constant(index))),
         Op::Fill(view, _) => Some(whole(view)),
         _ => None,
@@ -85,11 +85,13 @@ impl EffectWalk<'_> {
             effects.write(access);
         }
         match *op {
-            Op::Load(_, field, at) => effects.read(Access { field, first: at as usize, count: Some(1) }),
+            Op::Load(_, field, index) => {
+                effects.read(Access { field, first: index as usize, count: Some(1) })
+            }
             Op::LoadAt(_, view, index) | Op::LoadValueAt(_, view, index) => {
                 effects.read(element(view, unit.constant(index)));
             }
-            Op::LoadValue(_, view, at) => effects.read(element(view, Some(f64::from(at)))),
+            Op::LoadValue(_, view, index) => effects.read(element(view, Some(f64::from(index)))),
             Op::Length(_, view) => effects.read(whole(view)),
             Op::PickNumber(_, table, _) => {
                 for (_, value) in self.form.picks.get(table as usize).iter().flat_map(|picks| &picks.members)

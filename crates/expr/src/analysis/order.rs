@@ -126,9 +126,9 @@ fn blocks_on_every_path(unit: &SsaFunction) -> Vec<bool> {
     let end = unit.blocks.len();
     let (mut reached, mut furthest) = (vec![false; end + 1], 0);
     let mut all = Vec::with_capacity(end);
-    for (at, block) in unit.blocks.iter().enumerate() {
-        let here = at == 0 || reached.get(at) == Some(&true);
-        all.push(here && furthest <= at);
+    for (index, block) in unit.blocks.iter().enumerate() {
+        let here = index == 0 || reached.get(index) == Some(&true);
+        all.push(here && furthest <= index);
         if !here {
             continue;
         }
@@ -141,7 +141,7 @@ fn blocks_on_every_path(unit: &SsaFunction) -> Vec<bool> {
         match &block.end {
             Terminator::Jump(edge) => lead(edge.to as usize),
             Terminator::If(_, _, edge) | Terminator::IfNothing(_, _, edge) => {
-                lead(at + 1);
+                lead(index + 1);
                 lead(edge.to as usize);
             }
             Terminator::Return(_) => lead(end),

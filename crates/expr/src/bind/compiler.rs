@@ -43,18 +43,18 @@ impl Compiled {
     /// Returns the source with every numeric index that belongs to a named object replaced by the name.
     pub fn modernized(&self, source: &str) -> String {
         let mut out = String::new();
-        let mut at = 0;
+        let mut offset = 0;
         let mut fixes: Vec<&Fix> = self.named.iter().collect();
         order::sort_by_key(&mut fixes, |f| (f.span.start, f.span.end));
         for fix in fixes {
             // An index inside a replaced index is skipped.
-            if let Some(before) = source.get(at..fix.span.start) {
+            if let Some(before) = source.get(offset..fix.span.start) {
                 out.push_str(before);
                 out.push_str(&fix.text);
-                at = fix.span.end;
+                offset = fix.span.end;
             }
         }
-        out + source.get(at..).unwrap_or("")
+        out + source.get(offset..).unwrap_or("")
     }
 }
 

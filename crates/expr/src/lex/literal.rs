@@ -237,9 +237,9 @@ fn code(input: &str) -> IResult<&str, &str> {
 
 /// Comments and surrounding white space.
 fn comment(input: &str) -> IResult<&str, ()> {
-    let (at, _) = alt((tag("//"), tag("/*"))).parse(input)?;
+    let (marker_end, _) = alt((tag("//"), tag("/*"))).parse(input)?;
     let (behind, ..) = blank(input);
-    Ok((if behind.len() < at.len() { behind } else { at }, ()))
+    Ok((if behind.len() < marker_end.len() { behind } else { marker_end }, ()))
 }
 
 /// Appends the contents of the parts of a string or a template to a string.

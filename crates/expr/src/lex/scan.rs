@@ -53,17 +53,17 @@ pub(crate) fn tokens_of<'s>(source: &'s str, part: Span, diagnostics: &mut Vec<F
     let mut tokens: Vec<Token<'s>> = Vec::with_capacity(input.len() / 3 + 1);
     let end = part.start + input.len();
     loop {
-        let (at, newline, open) = blank(input);
+        let (rest, newline, open) = blank(input);
         if let Some(comment) = open {
             diagnostics.push(unclosed_comment(end - comment.len()));
         }
-        let start = end - at.len();
-        if at.is_empty() {
+        let start = end - rest.len();
+        if rest.is_empty() {
             tokens.push(Token { kind: TokenKind::End, span: Span::new(start, start), newline, doubt: None });
             return tokens;
         }
         // Only a template can fail: then it is not closed.
-        let (behind, raw) = raw(at).map_or(("", None), |(behind, raw)| (behind, Some(raw)));
+        let (behind, raw) = raw(rest).map_or(("", None), |(behind, raw)| (behind, Some(raw)));
         let span = Span::new(start, end - behind.len());
         let before = diagnostics.len();
         let kind = match raw {
@@ -71,7 +71,7 @@ pub(crate) fn tokens_of<'s>(source: &'s str, part: Span, diagnostics: &mut Vec<F
             None => literal::unclosed_template(start, diagnostics),
         };
         let fraction = matches!(kind, TokenKind::Number(_)) && is_fraction(&tokens, source, span);
-        let doubtful = fraction || at.starts_with(is_typographic);
+        let doubtful = fraction || rest.starts_with(is_typographic);
         let doubt =
             if doubtful && diagnostics.len() > before { diagnostics.pop().map(Box::new) } else { None };
         tokens.push(Token { kind, span, newline, doubt });

@@ -271,8 +271,8 @@ impl FunctionBuilder<'_> {
     fn load(&mut self, view: View, index: &Index, span: Span) -> Num {
         match (index, view.count()) {
             (Index::At(i), Some(_)) => {
-                let at = view.first.saturating_add(u32::try_from(*i).unwrap_or(u32::MAX));
-                self.number_by(span, |dst| Op::Load(dst, view.field, at))
+                let element = view.first.saturating_add(u32::try_from(*i).unwrap_or(u32::MAX));
+                self.number_by(span, |dst| Op::Load(dst, view.field, element))
             }
             _ => {
                 let index = self.index(index);

@@ -27,8 +27,8 @@ pub(super) struct PendingEdge {
 impl PendingEdge {
     /// The value that was stored in a variable along the edge.
     pub(super) fn stored_value(&self, local: LocalId) -> Option<Operand> {
-        let at = self.stored.binary_search_by_key(&local, |s| s.0).ok()?;
-        self.stored.get(at).map(|(_, at)| *at)
+        let index = self.stored.binary_search_by_key(&local, |s| s.0).ok()?;
+        self.stored.get(index).map(|(_, value)| *value)
     }
 }
 
@@ -156,7 +156,7 @@ impl<'t> FunctionBuilder<'t> {
 
     pub(super) fn text(&mut self, text: &Arc<str>) -> u32 {
         match self.form.texts.iter().position(|t| t == text) {
-            Some(at) => at as u32,
+            Some(index) => index as u32,
             None => {
                 self.form.texts.push(text.clone());
                 (self.form.texts.len() - 1) as u32

@@ -70,8 +70,8 @@ impl FunctionBuilder<'_> {
         for capture in self.captures(unit) {
             // A shared variable is captured as its cell.
             let shared = self.is_shared(capture);
-            let at = if shared { self.read_value(capture) } else { self.local_value(capture, span) };
-            names.push(at.0);
+            let operand = if shared { self.read_value(capture) } else { self.local_value(capture, span) };
+            names.push(operand.0);
         }
         let args = self.list_of(&names);
         self.value_of(span, |dst| Op::Closure(dst, unit, args))

@@ -61,24 +61,24 @@ impl<'f> Emit<'f> {
     /// operations are not counted.
     fn count_uses(&mut self) {
         let form = self.form;
-        for (at, block) in form.blocks.iter().enumerate().rev() {
+        for (id, block) in form.blocks.iter().enumerate().rev() {
             match &block.end {
                 Terminator::If(_, test, _) => self.count_use(Operand::Number(*test)),
                 Terminator::IfNothing(_, value, _) => self.count_use(Operand::Value(*value)),
-                Terminator::Return(Some(at)) => self.count_use(*at),
+                Terminator::Return(Some(operand)) => self.count_use(*operand),
                 Terminator::Return(None) | Terminator::Jump(_) | Terminator::Again(_) => {}
             }
             if let Some(edge) = edge(&block.end) {
                 self.count_edge_uses(edge, matches!(block.end, Terminator::Again(_)));
             }
-            for i in form.range(at as BlockId).rev() {
+            for i in form.range(id as BlockId).rev() {
                 self.count_operation_uses(i);
             }
         }
     }
 
-    fn count_use(&mut self, at: Operand) {
-        match self.form.same.at(at) {
+    fn count_use(&mut self, operand: Operand) {
+        match self.form.same.at(operand) {
             Operand::Number(n) => self.numbers.used(n.0),
             Operand::Value(v) => self.values.used(v.0),
         }
@@ -149,19 +149,19 @@ impl<'f> Emit<'f> {
         self.code.spans.push(span);
     }
 
-    fn block(&mut self, at: BlockId) {
+    fn block(&mut self, id: BlockId) {
         let form: &'f SsaFunction = self.form;
-        let Some(BasicBlock { end, span, .. }) = form.blocks.get(at as usize) else { return };
+        let Some(BasicBlock { end, span, .. }) = form.blocks.get(id as usize) else { return };
         // An unreachable block is removed. Edges lead forward, so all edges to this block have been seen.
-        let reached = self.starts.get(at as usize).is_some_and(|s| at == 0 || s.is_some());
+        let reached = self.starts.get(id as usize).is_some_and(|s| id == 0 || s.is_some());
         if !reached {
             return;
         }
-        if let Some(start) = self.starts.get_mut(at as usize) {
+        if let Some(start) = self.starts.get_mut(id as usize) {
             *start = Some(self.code.ops.len() as u32);
         }
-        self.write_results_directly(at, end);
-        let range = self.form.range(at);
+        self.write_results_directly(id, end);
+        let range = self.form.range(id);
         let (mut i, end_of_block) = (range.start, range.end);
         while i < end_of_block {
             let numeric = |i: &usize| self.form.ops.get(*i).is_some_and(Op::is_numeric);
@@ -173,7 +173,7 @@ impl<'f> Emit<'f> {
             }
             i = stop.max(i + 1);
         }
-        self.end(at, end, *span);
+        self.end(id, end, *span);
     }
 
     /// Emits consecutive numeric operations as one formula if that is faster, and returns whether it did.
@@ -227,15 +227,15 @@ impl<'f> Emit<'f> {
             (numbers.count..numbers.count + formula.steps.len() as u32).map_while(|r| u8::try_from(r).ok());
         let Some(row) = Row::part(&formula, &requested, free) else { return false };
         numbers.count = numbers.count.max(row.registers());
-        let at = code.formulas.len() as u32;
+        let index = code.formulas.len() as u32;
         code.formulas.push((row, count));
         let span = self.form.spans.get(first).copied().unwrap_or_default();
-        self.push(Op::Formula(at), span);
+        self.push(Op::Formula(index), span);
         true
     }
 
     /// Makes operations of a block write their results directly to the registers that its end requires.
-    fn write_results_directly(&mut self, at: BlockId, end: &Terminator) {
+    fn write_results_directly(&mut self, id: BlockId, end: &Terminator) {
         let mut moves: Vec<(Operand, Operand)> = Vec::new();
         match end {
             Terminator::Jump(edge) | Terminator::Again(edge) => moves = self.moves(edge),
@@ -252,7 +252,7 @@ impl<'f> Emit<'f> {
         // From the last operation to the first: a register that a later operation reads must not be overwritten.
         let mut read: Vec<Operand> =
             if again { moves.iter().map(|(_, from)| *from).collect() } else { Vec::new() };
-        for i in self.form.range(at).rev() {
+        for i in self.form.range(id).rev() {
             if self.live.get(i) != Some(&true) {
                 continue;
             }
@@ -344,7 +344,7 @@ impl<'f> Emit<'f> {
         self.push(op, span);
     }
 
-    fn end(&mut self, at: BlockId, end: &Terminator, span: Span) {
+    fn end(&mut self, id: BlockId, end: &Terminator, span: Span) {
         if let Some(edge) = edge(end) {
             self.move_all(edge, span);
             let jump = match end {
@@ -359,12 +359,12 @@ impl<'f> Emit<'f> {
                 }
             };
             if matches!(end, Terminator::If(..) | Terminator::IfNothing(..)) {
-                reach(&mut self.starts, at + 1);
+                reach(&mut self.starts, id + 1);
             }
             if !matches!(end, Terminator::Again(_)) {
                 reach(&mut self.starts, edge.to);
             }
-            if !(matches!(jump, Op::Jump(_)) && edge.to == at + 1) {
+            if !(matches!(jump, Op::Jump(_)) && edge.to == id + 1) {
                 self.jumps.push((self.code.ops.len(), edge.to));
                 self.push(jump, span);
             }
@@ -441,10 +441,10 @@ impl<'f> Emit<'f> {
             let cost = if let Op::Formula(f) = op { formula(*f) } else { 1 };
             costs.push(costs.last().copied().unwrap_or(0) + OPERATION * cost);
         }
-        let before = |at: usize| costs.get(at).copied().unwrap_or(0);
-        for (at, op) in code.ops.iter_mut().enumerate() {
+        let before = |index: usize| costs.get(index).copied().unwrap_or(0);
+        for (index, op) in code.ops.iter_mut().enumerate() {
             if let Op::Again(to, cost) = op {
-                *cost = u32::try_from(before(at + 1) - before(*to as usize)).unwrap_or(u32::MAX);
+                *cost = u32::try_from(before(index + 1) - before(*to as usize)).unwrap_or(u32::MAX);
             }
         }
         code.cost = before(code.ops.len()) + OPERATION * (code.numbers.len() + code.values.len()) as u64;

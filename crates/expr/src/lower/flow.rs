@@ -51,36 +51,36 @@ impl FunctionBuilder<'_> {
         self.tree.locals.len() as u32 + self.temporaries
     }
 
-    pub(super) fn write(&mut self, local: LocalId, at: Operand) {
+    pub(super) fn write(&mut self, local: LocalId, value: Operand) {
         let Variables { current, log } = &mut self.variables;
         if current.len() <= local as usize {
             current.resize(local as usize + 1, None);
         }
         if let Some(place) = current.get_mut(local as usize) {
-            log.push((local, place.replace((at, self.loops.len() as u32))));
+            log.push((local, place.replace((value, self.loops.len() as u32))));
         }
     }
 
     /// The current value of a variable, or `None` if nothing was stored.
     fn find(&mut self, local: LocalId) -> Option<Operand> {
-        let (mut at, level) = self.variables.current.get(local as usize).copied().flatten()?;
+        let (mut value, level) = self.variables.current.get(local as usize).copied().flatten()?;
         if (level as usize) < self.loops.len() {
             for i in level as usize..self.loops.len() {
                 let param = self.loops.get(i).and_then(|l| l.params.get(&local)).map(|(param, _)| *param);
-                at = match param {
+                value = match param {
                     Some(param) => param,
                     None => {
-                        let param = self.new_like(at);
+                        let param = self.new_like(value);
                         if let Some(level) = self.loops.get_mut(i) {
-                            level.params.insert(local, (param, at));
+                            level.params.insert(local, (param, value));
                         }
                         param
                     }
                 };
             }
-            self.write(local, at);
+            self.write(local, value);
         }
-        Some(at)
+        Some(value)
     }
 
     pub(super) fn read_number(&mut self, local: LocalId) -> Num {
@@ -103,8 +103,8 @@ impl FunctionBuilder<'_> {
     }
 
     /// A new name with the same representation.
-    fn new_like(&mut self, at: Operand) -> Operand {
-        match at {
+    fn new_like(&mut self, model: Operand) -> Operand {
+        match model {
             Operand::Number(_) => Operand::Number(self.new_number()),
             Operand::Value(_) => Operand::Value(self.new_value()),
         }
@@ -128,8 +128,9 @@ impl FunctionBuilder<'_> {
         let mut locals: Vec<LocalId> = log.iter().map(|(local, _)| *local).collect();
         order::sort_by(&mut locals, Ord::cmp);
         locals.dedup();
-        let current =
-            |l: LocalId| self.variables.current.get(l as usize).copied().flatten().map(|(at, _)| (l, at));
+        let current = |l: LocalId| {
+            self.variables.current.get(l as usize).copied().flatten().map(|(value, _)| (l, value))
+        };
         locals.into_iter().filter_map(current).collect()
     }
 
@@ -198,19 +199,19 @@ impl FunctionBuilder<'_> {
             let held: Vec<Option<Operand>> =
                 edges.iter().map(|pending| pending.stored_value(local)).collect();
             let before = if held.contains(&None) { self.find(local) } else { None };
-            let held: Option<Vec<Operand>> = held.into_iter().map(|at| at.or(before)).collect();
+            let held: Option<Vec<Operand>> = held.into_iter().map(|value| value.or(before)).collect();
             // A variable without a value on one of the edges is not used any more.
             let Some(held) = held else { continue };
             let Some(&first) = held.first() else { continue };
-            let same = |at: &Operand| self.unit.same.at(*at) == self.unit.same.at(first);
+            let same = |operand: &Operand| self.unit.same.at(*operand) == self.unit.same.at(first);
             if held.iter().all(same) {
                 self.write(local, first);
                 continue;
             }
             let param = self.new_like(first);
-            for (pending, at) in edges.iter().zip(held) {
+            for (pending, value) in edges.iter().zip(held) {
                 if let Some(edge) = self.edge(pending.from) {
-                    edge.args.push(at);
+                    edge.args.push(value);
                 }
             }
             if let Some(block) = self.unit.blocks.last_mut() {
@@ -372,18 +373,18 @@ impl FunctionBuilder<'_> {
         let back = self.jump(mark, span);
         self.undo_stores(mark);
         let Some(mut level) = self.loops.pop() else { return };
-        for (local, at) in back.iter().chain(&level.breaks).flat_map(|pending| &pending.stored) {
+        for (local, value) in back.iter().chain(&level.breaks).flat_map(|pending| &pending.stored) {
             if !level.params.contains_key(local)
                 && let Some(before) = self.find(*local)
             {
-                let param = self.new_like(*at);
+                let param = self.new_like(*value);
                 level.params.insert(*local, (param, before));
             }
         }
         let mut changed = Vec::new();
         for (local, (param, before)) in &level.params {
             let stored = back.as_ref().and_then(|pending| pending.stored_value(*local));
-            let next = stored.map_or(*param, |at| self.unit.same.at(at));
+            let next = stored.map_or(*param, |operand| self.unit.same.at(operand));
             if next == *param || next == self.unit.same.at(*before) {
                 self.unit.same.join(*param, *before);
             } else {
@@ -409,8 +410,8 @@ impl FunctionBuilder<'_> {
             let chains =
                 self.chains.last_mut().into_iter().flat_map(|e| e.exits.iter_mut().skip(level.returns.1));
             for pending in returns.chain(chains) {
-                if let Err(at) = pending.stored.binary_search_by_key(local, |s| s.0) {
-                    pending.stored.insert(at, (*local, *param));
+                if let Err(index) = pending.stored.binary_search_by_key(local, |s| s.0) {
+                    pending.stored.insert(index, (*local, *param));
                 }
             }
         }

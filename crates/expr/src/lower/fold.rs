@@ -7,7 +7,7 @@ use crate::ssa::{Num, Op, Operand, SsaFunction};
 
 /// The result of an operation.
 enum Folded {
-    Known(f64),
+    Constant(f64),
     /// The same value as another name.
     Same(Num),
 }
@@ -18,9 +18,9 @@ pub(super) fn fold(unit: &mut SsaFunction) {
     for i in 0..unit.ops.len() {
         let Some((name, gives)) = unit.ops.get(i).and_then(|op| result(unit, op)) else { continue };
         match gives {
-            Folded::Known(x) => {
-                let at = unit.numbers.partition_point(|(n, _)| *n < name);
-                unit.numbers.insert(at, (name, x));
+            Folded::Constant(x) => {
+                let index = unit.numbers.partition_point(|(n, _)| *n < name);
+                unit.numbers.insert(index, (name, x));
             }
             Folded::Same(other) => unit.same.join(Operand::Number(name), Operand::Number(other)),
         }
@@ -60,7 +60,7 @@ fn result(unit: &SsaFunction, op: &Op) -> Option<(Num, Folded)> {
             (
                 name,
                 if function.gives_boolean() {
-                    Folded::Known(x)
+                    Folded::Constant(x)
                 } else {
                     unless_nan_lost(&numbers, x).filter(|_| some)?
                 },
@@ -73,7 +73,7 @@ fn result(unit: &SsaFunction, op: &Op) -> Option<(Num, Folded)> {
 /// A known result, unless an operand is NaN and the result is not: a run records where NaN disappears ([`crate::Watch`]).
 fn unless_nan_lost(operands: &[f64], x: f64) -> Option<Folded> {
     let lost = operands.iter().any(|x| x.is_nan()) && !x.is_nan();
-    (!lost).then_some(Folded::Known(x))
+    (!lost).then_some(Folded::Constant(x))
 }
 
 #[cfg(test)]

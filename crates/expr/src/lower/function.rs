@@ -30,15 +30,15 @@ impl FunctionBuilder<'_> {
         self.unit.captures = unit.captures.iter().map(|c| self.slot(*c)).collect();
         let given: Vec<(LocalId, Operand)> =
             unit.params.iter().chain(&unit.captures).map(|&l| (l, self.given(l))).collect();
-        for (i, (local, at)) in given.into_iter().enumerate() {
-            let at = match at {
+        for (i, (local, operand)) in given.into_iter().enumerate() {
+            let operand = match operand {
                 // A captured variable is passed as its cell already.
                 Operand::Value(value) if self.is_shared(local) && i < unit.params.len() => {
                     Operand::Value(self.value_of(Span::default(), |dst| Op::NewCell(dst, value)))
                 }
-                at => at,
+                operand => operand,
             };
-            self.write(local, at);
+            self.write(local, operand);
         }
         self.steps(&unit.body);
         self.end(Terminator::Return(None), Span::default());

@@ -68,8 +68,12 @@ impl FunctionBuilder<'_> {
 
     fn load_number(&mut self, found: &ResolvedTarget, span: Span) -> Num {
         match found {
-            ResolvedTarget::Fixed(view, at) => self.number_by(span, |dst| Op::Load(dst, view.field, *at)),
-            ResolvedTarget::Element(view, at) => self.number_by(span, |dst| Op::LoadAt(dst, *view, *at)),
+            ResolvedTarget::Fixed(view, index) => {
+                self.number_by(span, |dst| Op::Load(dst, view.field, *index))
+            }
+            ResolvedTarget::Element(view, index) => {
+                self.number_by(span, |dst| Op::LoadAt(dst, *view, *index))
+            }
             ResolvedTarget::Local(id) if self.slot(*id) != Representation::Value => self.read_number(*id),
             _ => {
                 let value = self.load_found(found, span);
@@ -80,11 +84,13 @@ impl FunctionBuilder<'_> {
 
     fn load_found(&mut self, found: &ResolvedTarget, span: Span) -> Val {
         match *found {
-            ResolvedTarget::Fixed(view, at) => {
-                let number = self.number_by(span, |dst| Op::Load(dst, view.field, at));
+            ResolvedTarget::Fixed(view, index) => {
+                let number = self.number_by(span, |dst| Op::Load(dst, view.field, index));
                 self.boxed(number, Representation::Number, span)
             }
-            ResolvedTarget::Element(view, at) => self.value_of(span, |dst| Op::LoadValueAt(dst, view, at)),
+            ResolvedTarget::Element(view, index) => {
+                self.value_of(span, |dst| Op::LoadValueAt(dst, view, index))
+            }
             ResolvedTarget::Global(slot) => self.value_of(span, |dst| Op::Global(dst, slot)),
             ResolvedTarget::GlobalNamed(name) => self.value_of(span, |dst| Op::GlobalNamed(dst, name)),
             ResolvedTarget::Local(id) => self.local_value(id, span),
@@ -99,8 +105,8 @@ impl FunctionBuilder<'_> {
 
     fn store_number(&mut self, found: &ResolvedTarget, src: Num, span: Span) {
         match *found {
-            ResolvedTarget::Fixed(view, at) => self.emit(Op::Store(view.field, at, src), span),
-            ResolvedTarget::Element(view, at) => self.emit(Op::StoreAt(view, at, src), span),
+            ResolvedTarget::Fixed(view, index) => self.emit(Op::Store(view.field, index, src), span),
+            ResolvedTarget::Element(view, index) => self.emit(Op::StoreAt(view, index, src), span),
             ResolvedTarget::Local(id) if self.slot(id) != Representation::Value => {
                 self.write(id, Operand::Number(src))
             }

@@ -15,9 +15,9 @@ pub(crate) fn whole(unit: &SsaFunction) -> Option<Formula> {
         return None;
     }
     let mut steps = Steps::new(unit);
-    for at in 0..unit.blocks.len() as BlockId {
-        steps.params(at)?;
-        unit.range(at).try_for_each(|i| steps.op(unit.ops.get(i)?).map(|_| ()))?;
+    for block in 0..unit.blocks.len() as BlockId {
+        steps.params(block)?;
+        unit.range(block).try_for_each(|i| steps.op(unit.ops.get(i)?).map(|_| ()))?;
     }
     // The blocks that return are the paths to the end.
     let mut output = steps.selected_parameter(0, unit.blocks.len() as BlockId, 0)?;
@@ -48,31 +48,31 @@ struct Steps<'u> {
     input: Option<&'u mut dyn FnMut(Num) -> u32>,
     formula: Formula,
     /// The step of each name.
-    at: BTreeMap<Num, StepId>,
+    steps_by_name: BTreeMap<Num, StepId>,
 }
 
 impl<'u> Steps<'u> {
     fn new(unit: &'u SsaFunction) -> Steps<'u> {
-        Steps { unit, input: None, formula: Formula::default(), at: BTreeMap::new() }
+        Steps { unit, input: None, formula: Formula::default(), steps_by_name: BTreeMap::new() }
     }
 
     fn find(&mut self, name: Num) -> Option<StepId> {
         let name = self.unit.same.number(name);
-        if let Some(at) = self.at.get(&name) {
-            return Some(*at);
+        if let Some(step) = self.steps_by_name.get(&name) {
+            return Some(*step);
         }
-        let at = match (self.unit.constant(name), &mut self.input) {
+        let step = match (self.unit.constant(name), &mut self.input) {
             (Some(x), _) => self.formula.constant(x),
             (None, Some(input)) => self.formula.step(FormulaStep::Input(input(name))),
             (None, None) => return None,
         };
-        self.at.insert(name, at);
-        Some(at)
+        self.steps_by_name.insert(name, step);
+        Some(step)
     }
 
     /// The step of an operation, and the name of its result.
     fn op(&mut self, op: &Op) -> Option<(Num, StepId)> {
-        let (name, at) = match *op {
+        let (name, step) = match *op {
             Op::Load(name, field, index) => (name, self.formula.step(FormulaStep::Load(field, index))),
             Op::Unary(name, op, a) => {
                 let a = self.find(a)?;
@@ -98,8 +98,8 @@ impl<'u> Steps<'u> {
             }
             _ => return None,
         };
-        self.at.insert(name, at);
-        Some((name, at))
+        self.steps_by_name.insert(name, step);
+        Some((name, step))
     }
 
     /// Determines the steps of the parameters of a block.
@@ -108,8 +108,8 @@ impl<'u> Steps<'u> {
         let BasicBlock { params, after, .. } = unit.blocks.get(to as usize)?;
         for (i, param) in params.iter().enumerate() {
             let Operand::Number(name) = param else { return None };
-            let at = self.selected_parameter(*after, to, i)?;
-            self.at.insert(*name, at);
+            let step = self.selected_parameter(*after, to, i)?;
+            self.steps_by_name.insert(*name, step);
         }
         Some(())
     }
@@ -119,7 +119,7 @@ impl<'u> Steps<'u> {
     fn selected_parameter(&mut self, after: BlockId, to: BlockId, param: usize) -> Option<StepId> {
         let unit = self.unit;
         let mut from: Vec<Option<StepId>> = vec![None; (to - after) as usize];
-        for at in (after..to).rev() {
+        for current in (after..to).rev() {
             let chosen_from = |from: &[Option<StepId>], block: BlockId| {
                 from.get((block - after) as usize).copied().flatten()
             };
@@ -129,10 +129,10 @@ impl<'u> Steps<'u> {
                     _ if edge.to < to => chosen_from(from, edge.to),
                     _ => None,
                 };
-            let found = match &unit.blocks.get(at as usize)?.end {
+            let found = match &unit.blocks.get(current as usize)?.end {
                 Terminator::Jump(edge) => follow(self, &from, edge),
                 Terminator::If(when, test, edge) => {
-                    let (there, next) = (follow(self, &from, edge), chosen_from(&from, at + 1));
+                    let (there, next) = (follow(self, &from, edge), chosen_from(&from, current + 1));
                     match (there, next) {
                         (Some(there), Some(next)) => {
                             let (yes, no) = if *when { (there, next) } else { (next, there) };
@@ -148,7 +148,7 @@ impl<'u> Steps<'u> {
                 Terminator::Return(_) => None,
                 Terminator::IfNothing(..) | Terminator::Again(_) => return None,
             };
-            if let Some(place) = from.get_mut((at - after) as usize) {
+            if let Some(place) = from.get_mut((current - after) as usize) {
                 *place = found;
             }
         }

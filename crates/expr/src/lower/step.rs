@@ -75,8 +75,8 @@ impl FunctionBuilder<'_> {
 
     fn declare(&mut self, local: LocalId, value: &Ir) {
         if !self.is_shared(local) {
-            let at = self.in_slot(local, value);
-            return self.write(local, at);
+            let operand = self.in_slot(local, value);
+            return self.write(local, operand);
         }
         let src = self.value(value);
         if self.has(local) {
@@ -148,14 +148,14 @@ impl FunctionBuilder<'_> {
     fn return_value(&mut self, value: &Ir) {
         let span = value.span;
         let Some((result, mark)) = self.inlines.last().map(|i| (i.result, i.mark)) else {
-            let at = match self.unit.result {
+            let operand = match self.unit.result {
                 Representation::Value => Operand::Value(self.value(value)),
                 _ => Operand::Number(self.number(value)),
             };
-            return self.end(Terminator::Return(Some(at)), span);
+            return self.end(Terminator::Return(Some(operand)), span);
         };
-        let at = self.in_slot(result, value);
-        self.write(result, at);
+        let operand = self.in_slot(result, value);
+        self.write(result, operand);
         let edge = self.jump(mark, span);
         if let Some(inline) = self.inlines.last_mut() {
             inline.exits.extend(edge);

@@ -100,7 +100,7 @@ impl Parser<'_> {
         let before = self.last_span().text(self.source);
         let message = format!("expected a value, found {}", self.describe_token());
         let mut report = Finding::error(rules::MISSING_VALUE, span, message);
-        if !before.is_empty() && self.at > 0 {
+        if !before.is_empty() && self.position > 0 {
             report = report.why(format!("`{before}` needs a value after it"));
         }
         report = match self.peek() {

@@ -11,7 +11,7 @@ impl Parser<'_> {
     /// A declaration in place of `class name`, so that uses of the name are not reported as further errors.
     pub(super) fn class_name(&self) -> Option<StmtKind> {
         let (TokenKind::Word(text), true) = (self.peek_at(1), self.is_word("class")) else { return None };
-        let span = self.tokens.get(self.at + 1)?.span;
+        let span = self.tokens.get(self.position + 1)?.span;
         let value = Some(Expr { kind: ExprKind::Error, span });
         let target = Pattern::Name(Name { text: (*text).to_owned(), span });
         Some(StmtKind::Declare { constant: true, declarators: vec![Declarator { target, value }] })
@@ -37,7 +37,7 @@ impl Parser<'_> {
 
     /// Parses `const a = 1, b = 2` and the end of the statement.
     pub(super) fn declaration(&mut self) -> Attempt<StmtKind> {
-        let (first, opener) = (self.at, self.span());
+        let (first, opener) = (self.position, self.span());
         let (kind, failed) = self.declarators()?;
         if failed {
             // The names are declared nevertheless, so that their uses are not reported as further errors.

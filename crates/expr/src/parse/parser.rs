@@ -63,7 +63,8 @@ pub(crate) fn statements(source: &str, host_terms: &'static HostTerms, tells: bo
 pub(crate) fn in_order(mut found: Vec<Finding>) -> Vec<Finding> {
     // A string that is not closed contains the brackets behind it, so the brackets before it seem to be open.
     let open_string = found.iter().filter(|d| d.code == rules::BAD_STRING.code).map(|d| d.span.start).max();
-    found.retain(|d| d.code != rules::UNCLOSED.code || open_string.is_none_or(|at| d.span.start > at));
+    found
+        .retain(|d| d.code != rules::UNCLOSED.code || open_string.is_none_or(|offset| d.span.start > offset));
     order::sort_by_key(&mut found, |d| (d.span.start, d.span.end));
     if found.len() > MAX_DIAGNOSTICS {
         found.truncate(MAX_DIAGNOSTICS);
@@ -94,7 +95,7 @@ pub(super) struct Parser<'s> {
     pub(super) tells: bool,
     pub(super) quotes_left_to_host: bool,
     pub(super) tokens: Vec<Token<'s>>,
-    pub(super) at: usize,
+    pub(super) position: usize,
     /// The nesting depth of the expressions and statements that are being parsed.
     pub(super) depth: usize,
     /// The height of the highest tree since [`Parser::measured`] began.
@@ -120,7 +121,7 @@ impl<'s> Parser<'s> {
             tells,
             quotes_left_to_host,
             tokens,
-            at: 0,
+            position: 0,
             depth: 0,
             tallest: 0,
             diagnostics,
@@ -145,23 +146,23 @@ impl<'s> Parser<'s> {
 
     /// The token `n` positions ahead, or [`TokenKind::End`] after the last.
     pub(super) fn peek_at(&self, n: usize) -> &TokenKind<'s> {
-        self.tokens.get(self.at + n).map_or(&TokenKind::End, |t| &t.kind)
+        self.tokens.get(self.position + n).map_or(&TokenKind::End, |t| &t.kind)
     }
 
     /// The span of the next token. At the end of the text, it is the end of the last token.
     pub(super) fn span(&self) -> Span {
-        let next = self.tokens.get(self.at).filter(|t| t.kind != TokenKind::End);
+        let next = self.tokens.get(self.position).filter(|t| t.kind != TokenKind::End);
         next.map_or(self.last_span().after(), |t| t.span)
     }
 
     /// The span of the previous token.
     pub(super) fn last_span(&self) -> Span {
-        self.at.checked_sub(1).and_then(|i| self.tokens.get(i)).map_or(Span::default(), |t| t.span)
+        self.position.checked_sub(1).and_then(|i| self.tokens.get(i)).map_or(Span::default(), |t| t.span)
     }
 
     /// Whether a line ends before the next token.
     pub(super) fn newline(&self) -> bool {
-        self.tokens.get(self.at).is_none_or(|t| t.newline)
+        self.tokens.get(self.position).is_none_or(|t| t.newline)
     }
 
     pub(super) fn ended(&self) -> bool {
@@ -170,7 +171,7 @@ impl<'s> Parser<'s> {
 
     pub(super) fn bump(&mut self) -> Span {
         let span = self.span();
-        self.at += 1;
+        self.position += 1;
         span
     }
 

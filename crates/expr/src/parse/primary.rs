@@ -15,7 +15,7 @@ impl Parser<'_> {
         let kind = match self.peek() {
             TokenKind::Number(x) => {
                 let x = *x;
-                let doubt = self.tokens.get(self.at).and_then(|token| token.doubt.clone());
+                let doubt = self.tokens.get(self.position).and_then(|token| token.doubt.clone());
                 self.diagnostics.extend(doubt.map(|finding| *finding));
                 ExprKind::Number(x)
             }
@@ -108,10 +108,10 @@ impl Parser<'_> {
             let tokens = lex::tokens_of(self.source, place, &mut self.diagnostics);
             let outer = std::mem::replace(&mut self.tokens, tokens);
             self.check_typographic_quotes();
-            let at = std::mem::take(&mut self.at);
+            let position = std::mem::take(&mut self.position);
             let value = self.template_value(place);
             self.tokens = outer;
-            self.at = at;
+            self.position = position;
             let value = value.unwrap_or_else(|Reported| error_node(place));
             height = height.max(value.height);
             values.push(value.expr);

@@ -7,7 +7,7 @@ use crate::lex::TokenKind;
 impl Parser<'_> {
     /// Parses a statement. An invalid statement is skipped, and [`StmtKind::Error`] takes its place.
     pub(super) fn recovered(&mut self, closer: &str) -> Stmt {
-        let (first, span) = (self.at, self.span());
+        let (first, span) = (self.position, self.span());
         let kind = self.statement().unwrap_or(StmtKind::Error);
         let failed = kind == StmtKind::Error;
         let stmt = Stmt { kind, span: span.to(self.last_span()) };
@@ -20,12 +20,13 @@ impl Parser<'_> {
 
     /// Whether the parser is at the end of a statement.
     pub(super) fn at_boundary(&self, first: usize) -> bool {
-        self.at > first && (self.ended() || self.newline() || self.previous_is(";") || self.previous_is("}"))
+        self.position > first
+            && (self.ended() || self.newline() || self.previous_is(";") || self.previous_is("}"))
     }
 
     /// Whether the previous token is this symbol.
     fn previous_is(&self, symbol: &str) -> bool {
-        let before = self.at.checked_sub(1).and_then(|i| self.tokens.get(i));
+        let before = self.position.checked_sub(1).and_then(|i| self.tokens.get(i));
         before.is_some_and(|t| matches!(t.kind, TokenKind::Symbol(s) if s == symbol))
     }
 
@@ -33,7 +34,7 @@ impl Parser<'_> {
     /// block. Consumes at least one token, unless the block ends.
     pub(super) fn skip_statement(&mut self, first: usize, closer: &str) {
         while !self.ended() && !self.is(closer) {
-            if self.at > first && self.newline() {
+            if self.position > first && self.newline() {
                 return;
             }
             if self.consume(";").is_some() {
@@ -66,7 +67,7 @@ impl Parser<'_> {
             if self.is("{") {
                 self.skip_group();
             } else if !self.previous_is(";") {
-                let first = self.at;
+                let first = self.position;
                 if !self.ended() {
                     self.skip_statement(first, "}");
                 }

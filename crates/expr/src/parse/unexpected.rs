@@ -88,8 +88,8 @@ impl Parser<'_> {
 
     /// If the next comma is between digits without a space, as in `0,5`: its span and the intended number.
     pub(super) fn decimal_comma(&self) -> Option<(Span, String)> {
-        let before = self.at.checked_sub(1).and_then(|i| self.tokens.get(i))?;
-        let behind = self.tokens.get(self.at + 1)?;
+        let before = self.position.checked_sub(1).and_then(|i| self.tokens.get(i))?;
+        let behind = self.tokens.get(self.position + 1)?;
         let numbers = matches!((&before.kind, &behind.kind), (TokenKind::Number(_), TokenKind::Number(_)));
         let whole = before.span.text(self.source);
         let fraction = behind.span.text(self.source);

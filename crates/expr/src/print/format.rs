@@ -66,13 +66,13 @@ fn shape(tree: &impl std::fmt::Debug) -> String {
 /// Whether there is a comment between the tokens, or possibly in a template.
 fn has_comments(source: &str) -> bool {
     let opens = |text: &str| text.contains("//") || text.contains("/*");
-    let mut at = 0;
+    let mut offset = 0;
     for token in tokens(source, &mut Vec::new()) {
         let template = matches!(token.kind, TokenKind::Template(..)) && opens(token.span.text(source));
-        if template || opens(source.get(at..token.span.start).unwrap_or("")) {
+        if template || opens(source.get(offset..token.span.start).unwrap_or("")) {
             return true;
         }
-        at = token.span.end;
+        offset = token.span.end;
     }
     false
 }

@@ -34,16 +34,16 @@ proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(400) })]
 
     #[test]
-    fn agrees_with_evalexpr((ours, theirs) in arithmetic()) {
-        let Ok(evalexpr::Value::Float(expected)) = evalexpr::eval(&theirs) else { return Ok(()) };
+    fn agrees_with_evalexpr((expression, reference) in arithmetic()) {
+        let Ok(evalexpr::Value::Float(expected)) = evalexpr::eval(&reference) else { return Ok(()) };
         // The first source is folded at compile time; the second is evaluated by the virtual machine, because
         // `data.time` is 0 at run time.
-        for source in [ours.clone(), ours.replace("(-", "(data.time + -").replace("(1", "(data.time + 1")] {
+        for source in [expression.clone(), expression.replace("(-", "(data.time + -").replace("(1", "(data.time + 1")] {
             let Value::Number(got) = evaluate(&source) else { panic!("{source} is not a number") };
             // `evalexpr` uses another library for powers, which may round differently, and later operations
             // may amplify the difference.
             let close = got == expected || got.is_nan() && expected.is_nan();
-            let powers = ours.contains("**");
+            let powers = expression.contains("**");
             prop_assert!(close || powers, "{source}: {got} and {expected}");
         }
     }

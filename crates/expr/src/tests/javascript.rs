@@ -120,8 +120,10 @@ fn agrees_with_node() {
         (0..PROGRAMS).map(|_| strategy.new_tree(&mut runner).unwrap().current()).collect();
     let expected = node(&sources);
     assert_eq!(expected.len(), sources.len());
-    let wrong =
-        sources.iter().zip(&expected).map(|(source, theirs)| (source, encode(&evaluate(source)), theirs));
-    let wrong: Vec<_> = wrong.filter(|(_, ours, theirs)| ours != *theirs).take(5).collect();
+    let wrong = sources
+        .iter()
+        .zip(&expected)
+        .map(|(source, node_result)| (source, encode(&evaluate(source)), node_result));
+    let wrong: Vec<_> = wrong.filter(|(_, computed, node_result)| computed != *node_result).take(5).collect();
     assert!(wrong.is_empty(), "text, ours, node's: {wrong:#?}");
 }

@@ -193,16 +193,16 @@ fn help_describes_the_expression_at_a_place() {
     let source = "2 * data.joint('light_free').qpos[2] + Math.sin(data.time)";
     let mut compiler = Compiler::new(&Mock, &mut globals).explaining();
     let help = compiler.expression(source).help;
-    let at = |text: &str| {
+    let help_for = |text: &str| {
         let start = source.find(text).unwrap();
         let span = Span::new(start, start + text.len());
         help.iter().find(|(s, _)| *s == span).map(|(_, h)| (h.title.clone(), h.lines.first().cloned()))
     };
     assert_eq!(
-        at("data.joint('light_free').qpos[2]"),
+        help_for("data.joint('light_free').qpos[2]"),
         Some(("data.joint(\"light_free\").qpos[2]".into(), Some("coordinate 2".into())))
     );
-    assert_eq!(at("Math.sin(data.time)").unwrap().1.as_deref(), Some("sine of an angle in rad"));
+    assert_eq!(help_for("Math.sin(data.time)").unwrap().1.as_deref(), Some("sine of an angle in rad"));
 }
 
 /// A fixed number of random texts that resemble the language, or as many as fit into LABSPEC_FUZZ_SECONDS, starting

@@ -105,7 +105,7 @@ fn arguments(range: &Range, n: usize) -> Vec<[f64; 2]> {
     all.filter(|[x, _]| inside(*x)).collect()
 }
 
-fn ours(range: &Range, [x, y]: [f64; 2]) -> f64 {
+fn labspec_result(range: &Range, [x, y]: [f64; 2]) -> f64 {
     let function = math::function(range.name).unwrap();
     if range.second == (0.0, 0.0) { function.apply(&[x]) } else { function.apply(&[x, y]) }
 }
@@ -153,16 +153,16 @@ struct Measured {
     cases: usize,
     same: usize,
     most: u64,
-    at: [f64; 2],
+    arguments: [f64; 2],
 }
 
-fn measure(range: &Range, list: &[[f64; 2]], theirs: &[f64]) -> Measured {
-    let mut found = Measured { cases: list.len(), same: 0, most: 0, at: [f64::NAN; 2] };
-    for (args, theirs) in list.iter().zip(theirs) {
-        let error = ulps(ours(range, *args), *theirs);
+fn measure(range: &Range, list: &[[f64; 2]], node_results: &[f64]) -> Measured {
+    let mut found = Measured { cases: list.len(), same: 0, most: 0, arguments: [f64::NAN; 2] };
+    for (args, node_results) in list.iter().zip(node_results) {
+        let error = ulps(labspec_result(range, *args), *node_results);
         found.same += usize::from(error == 0);
         if error > found.most {
-            (found.most, found.at) = (error, *args);
+            (found.most, found.arguments) = (error, *args);
         }
     }
     found
@@ -207,13 +207,18 @@ fn functions_are_as_near_to_nodes_as_the_table_says() {
         let line = lines.next().unwrap();
         let (name, values) = line.split_once(' ').unwrap();
         assert_eq!(name, range.name);
-        let theirs: Vec<f64> =
+        let node_results: Vec<f64> =
             values.split(' ').map(|w| f64::from_bits(u64::from_str_radix(w, 16).unwrap())).collect();
         let list = arguments(range, KEPT);
-        assert_eq!(theirs.len(), list.len());
-        let found = measure(range, &list, &theirs);
+        assert_eq!(node_results.len(), list.len());
+        let found = measure(range, &list, &node_results);
         assert!(limit(name) <= FARTHEST, "{name}: {} ulp in the table", limit(name));
-        assert!(found.most <= limit(name), "Math.{name}{:?}: {} ulp from node's", found.at, found.most);
+        assert!(
+            found.most <= limit(name),
+            "Math.{name}{:?}: {} ulp from node's",
+            found.arguments,
+            found.most
+        );
     }
 }
 
@@ -228,8 +233,8 @@ fn the_table_equals_the_measured_differences_to_node() {
     let limit = (!bless).then(limits);
     for range in RANGES {
         let list = arguments(range, if bless { MANY } else { MANY / 10 });
-        let theirs = node(range, &list);
-        let found = measure(range, &list, &theirs);
+        let node_results = node(range, &list);
+        let found = measure(range, &list, &node_results);
         let share = 100.0 * found.same as f64 / found.cases as f64;
         // Rounded down, so that 100 % means all.
         let share = if found.same == found.cases {
@@ -243,7 +248,7 @@ fn the_table_equals_the_measured_differences_to_node() {
         let _ = writeln!(recorded, "{} {}", range.name, few.join(" "));
         if let Some(limit) = &limit {
             let (name, most) = (range.name, found.most);
-            assert!(most <= limit(name), "Math.{name}{:?}: {most} ulp from node's", found.at);
+            assert!(most <= limit(name), "Math.{name}{:?}: {most} ulp from node's", found.arguments);
         }
     }
     if bless {

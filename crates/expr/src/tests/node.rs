@@ -167,8 +167,8 @@ fn random_programs_behave_as_in_javascript() {
         let sources: Vec<String> = batch.iter().map(|(s, _)| s.clone()).collect();
         let results = results_in_node(&sources);
         assert_eq!(results.len(), batch.len());
-        for ((source, ours), theirs) in batch.iter().zip(&results) {
-            assert!(ours == theirs, "{source}\n here: {ours}\nthere: {theirs}");
+        for ((source, computed), node_result) in batch.iter().zip(&results) {
+            assert!(computed == node_result, "{source}\n here: {computed}\nthere: {node_result}");
         }
         done += batch.len();
     }

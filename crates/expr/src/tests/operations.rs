@@ -90,9 +90,9 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-fn assert_same(ours: f64, table: f64, what: &str) {
-    let same = ours.to_bits() == table.to_bits() || ours.is_nan() && table.is_nan();
-    assert!(same, "{what} gives {ours:?}, the table {table:?}");
+fn assert_same(computed: f64, table: f64, what: &str) {
+    let same = computed.to_bits() == table.to_bits() || computed.is_nan() && table.is_nan();
+    assert!(same, "{what} gives {computed:?}, the table {table:?}");
 }
 
 fn world(a: f64, b: f64) -> World {

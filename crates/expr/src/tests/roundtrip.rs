@@ -214,9 +214,9 @@ fn bones(tree: &impl std::fmt::Debug) -> String {
     let text = format!("{tree:?}");
     let mut out = String::new();
     let mut rest = text.as_str();
-    while let Some(at) = rest.find("Span { start: ") {
-        out += &rest[..at];
-        rest = &rest[at..];
+    while let Some(start) = rest.find("Span { start: ") {
+        out += &rest[..start];
+        rest = &rest[start..];
         rest = &rest[rest.find('}').unwrap_or(0) + 1..];
     }
     out + rest

@@ -60,10 +60,13 @@ fn rows_give_the_results_of_the_machine() {
             world.fields[0][0] = f64::from(i) * 0.37;
             world.fields[1][2] = 3.0 - f64::from(i) / 2.0;
             let bits = |v: Value| (v.type_of(), v.to_number().to_bits());
-            let ours = row.value(|elements, out| world.read(elements, out), &mut Vec::new()).unwrap();
-            let theirs = crate::vm::run(&program.code, &mut world, &mut Context::new(), None).unwrap();
-            let nan = ours.to_number().is_nan() && theirs.to_number().is_nan();
-            assert!(nan || bits(ours.clone()) == bits(theirs.clone()), "{source}: {ours} and {theirs}");
+            let by_row = row.value(|elements, out| world.read(elements, out), &mut Vec::new()).unwrap();
+            let by_machine = crate::vm::run(&program.code, &mut world, &mut Context::new(), None).unwrap();
+            let nan = by_row.to_number().is_nan() && by_machine.to_number().is_nan();
+            assert!(
+                nan || bits(by_row.clone()) == bits(by_machine.clone()),
+                "{source}: {by_row} and {by_machine}"
+            );
         }
     }
     assert!(rows > 200, "only {rows} are formulas");

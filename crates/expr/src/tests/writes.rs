@@ -142,16 +142,19 @@ fn compare(sources: Vec<String>) -> Count {
     let mut ran = Vec::new();
     for source in sources {
         match result_here(&source) {
-            Ok(ours) => ran.push((source, ours)),
+            Ok(computed) => ran.push((source, computed)),
             Err(rule) => *count.refused.entry(rule).or_default() += 1,
         }
     }
     let sources: Vec<String> = ran.iter().map(|(source, _)| source.clone()).collect();
-    let theirs = results_in_node(&sources);
-    assert_eq!(theirs.len(), ran.len());
-    let differ = ran.iter().zip(&theirs).filter(|((_, ours), theirs)| ours != *theirs);
+    let node_results = results_in_node(&sources);
+    assert_eq!(node_results.len(), ran.len());
+    let differ =
+        ran.iter().zip(&node_results).filter(|((_, computed), node_results)| computed != *node_results);
     let wrong: Vec<String> = differ
-        .map(|((source, ours), theirs)| format!("{source}\n here: {ours}\nthere: {theirs}\n"))
+        .map(|((source, computed), node_results)| {
+            format!("{source}\n here: {computed}\nthere: {node_results}\n")
+        })
         .collect();
     let first = wrong.iter().take(6).cloned().collect::<Vec<_>>().join("\n");
     assert!(wrong.is_empty(), "{} of {} differ:\n{first}", wrong.len(), ran.len());

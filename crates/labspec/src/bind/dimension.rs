@@ -34,7 +34,7 @@ pub fn dimension_of(lab: &Lab, model: &Model, programs: &Programs, code: &str) -
     let mut globals = programs.globals.clone();
     let program = Compiler::new(&work.names, &mut globals).expression(code).program?;
     match program.measured(&work.names, &given).value {
-        Measure::Known(dimension) => Some(dimension),
+        Measure::Dimension(dimension) => Some(dimension),
         _ => None,
     }
 }
@@ -79,7 +79,7 @@ pub fn given_by(control: &Control) -> Measure {
         ControlKind::Slider { unit: Some(unit), .. } => labels::unit(unit.as_str()),
         _ => labels::of_label(control.label.as_str()).map(|(_, d)| d),
     };
-    unit.map_or(Measure::Unknown, Measure::Known)
+    unit.map_or(Measure::Unknown, Measure::Dimension)
 }
 
 struct DimensionPass<'l> {

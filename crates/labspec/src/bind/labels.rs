@@ -48,8 +48,8 @@ pub(crate) fn of_heading(head: &str) -> Option<(&str, Dimension)> {
         }
     }
     // `x / mm` is a quantity divided by its unit; `m/s` and the ratio `M / m` are not.
-    for (at, _) in head.match_indices('/') {
-        let (left, text) = (head.get(..at)?.trim(), head.get(at + 1..)?.trim());
+    for (slash, _) in head.match_indices('/') {
+        let (left, text) = (head.get(..slash)?.trim(), head.get(slash + 1..)?.trim());
         let ratio =
             left.to_lowercase() == text.to_lowercase() || !left.contains(' ') && whole(head).is_some();
         if let Some(found) = whole(text).filter(|_| !ratio && !left.is_empty()) {

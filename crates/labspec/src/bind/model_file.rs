@@ -42,9 +42,9 @@ pub fn compile_file(
 
 /// Compiles the model of a lab for playing: with errors, but without warnings.
 pub(crate) fn compile_to_play(lab: &Lab, folder: &ModelFolder) -> Compiled {
-    let refused = |rule, at: &Text, message: String, help: String| Compiled {
+    let refused = |rule, field: &Text, message: String, help: String| Compiled {
         model: None,
-        findings: vec![Finding::error(rule, at.span(), message).help(help)],
+        findings: vec![Finding::error(rule, field.span(), message).help(help)],
         files: Vec::new(),
         parts: Vec::new(),
     };
@@ -141,9 +141,9 @@ pub(super) fn compile_source(
         sources.push(file.clone());
     }
     let place_of = |d: &Finding| {
-        let at = if d.path.is_empty() { 0 } else { part_of(&mut sources, files, &d.path) };
+        let index = if d.path.is_empty() { 0 } else { part_of(&mut sources, files, &d.path) };
         let finding = from_mjcf(d, d.span.clone());
-        sources.get(at).map_or(finding.clone(), |source| finding.at(source))
+        sources.get(index).map_or(finding.clone(), |source| finding.at(source))
     };
     let findings = checked.findings.iter().map(place_of).collect();
     Compiled { model: checked.model, findings, files: sources, parts: remembering.parts() }

@@ -282,11 +282,11 @@ impl Models {
             && parts.iter().all(|part| {
                 let named = if part.path.is_empty() { format!("{name}.xml") } else { part.path.clone() };
                 // The text of a model and the bytes of the same file, when it is attached, have different digests.
-                let at = (named, part.path.is_empty(), part.limit);
-                let cached = lock_cache(&self.marks).get(&at).cloned();
+                let key = (named, part.path.is_empty(), part.limit);
+                let cached = lock_cache(&self.marks).get(&key).cloned();
                 let current = cached.unwrap_or_else(|| {
                     let current = parts::hash_now(hash, &path, files, &part.path, part.limit);
-                    lock_cache(&self.marks).insert(at, current.clone());
+                    lock_cache(&self.marks).insert(key, current.clone());
                     current
                 });
                 current == part.hash
@@ -366,10 +366,10 @@ mod tests {
         std::fs::write(top.path().join("rod.xml"), model).unwrap();
         let models = Models::new(ModelFolder::open(top.path()).unwrap());
         let offered = |lab: &str| {
-            let at = lab.find('|').unwrap();
+            let offset = lab.find('|').unwrap();
             let text = format!("```lab simlab\n{}\n```\n", lab.replace('|', ""));
             let file = SourceFile::new("t.md", text);
-            let all = completions_in(&file, at + "```lab simlab\n".len(), &|asked| models.names(asked));
+            let all = completions_in(&file, offset + "```lab simlab\n".len(), &|asked| models.names(asked));
             all.into_iter().map(|c| c.text.into_owned()).collect::<Vec<_>>()
         };
         assert_eq!(offered(r#"{"model": "|"}"#), ["rod"]);

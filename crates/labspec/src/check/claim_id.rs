@@ -44,12 +44,12 @@ pub(super) fn identify(
 
 /// The name and the result of the quote, closed form or run with this span.
 fn result_at(judgement: &Judgement, span: &Range<usize>) -> Option<(String, String)> {
-    let at = |is_span: &Range<usize>| is_span == span;
-    let quotes = judgement.quotes.iter().filter(|q| at(&q.span));
+    let is_same = |is_span: &Range<usize>| is_span == span;
+    let quotes = judgement.quotes.iter().filter(|q| is_same(&q.span));
     let quotes = quotes.map(|q| (part(Subject::Quote, &q.text), q.reason.clone()));
-    let forms = judgement.exact.iter().filter(|form| at(&form.span));
+    let forms = judgement.exact.iter().filter(|form| is_same(&form.span));
     let forms = forms.map(|form| (part(Subject::ClosedForm, &form.trace), form.remark.clone()));
-    let runs = judgement.runs.iter().filter(|run| at(&run.span));
+    let runs = judgement.runs.iter().filter(|run| is_same(&run.span));
     let runs = runs.map(|run| (part(Subject::Run, &run.name), run.broke.clone().unwrap_or_default()));
     quotes.chain(forms).chain(runs).next()
 }

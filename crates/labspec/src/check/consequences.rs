@@ -108,8 +108,8 @@ impl FixedLesson<'_> {
     }
 
     /// A position of the old text in the new one.
-    fn moved(&self, at: usize) -> usize {
+    fn moved(&self, offset: usize) -> usize {
         let Fix { span, text, .. } = self.fix;
-        if at >= span.end && at > span.start { at - span.len() + text.len() } else { at }
+        if offset >= span.end && offset > span.start { offset - span.len() + text.len() } else { offset }
     }
 }

@@ -122,11 +122,11 @@ fn at_definition(lesson: &Lesson, finding: &Finding, others: Vec<Range<usize>>) 
 /// The only place of a text that contains a word.
 fn only_place(text: &str, word: &str) -> Option<Range<usize>> {
     let is_part = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-');
-    let is_word = |at: &usize| {
-        let (before, after) = (text.get(..*at), text.get(at + word.len()..));
+    let is_word = |offset: &usize| {
+        let (before, after) = (text.get(..*offset), text.get(offset + word.len()..));
         !before.is_some_and(|t| t.ends_with(is_part)) && !after.is_some_and(|t| t.starts_with(is_part))
     };
-    let mut places = text.match_indices(word).map(|(at, _)| at).filter(is_word);
+    let mut places = text.match_indices(word).map(|(offset, _)| offset).filter(is_word);
     let first = places.next().filter(|_| !word.is_empty())?;
     places.next().is_none().then(|| first..first + word.len())
 }

@@ -15,7 +15,7 @@ pub(super) fn check_units(lab: &Lab, model: &Model, programs: &Programs, finding
     for ((labels, probe), measured) in labels(lab).zip(&programs.probes).zip(&found.probes) {
         let (Some(bound), Some(measured)) = (&probe.bound, measured) else { continue };
         findings.extend(mixed_dimensions::clashes(bound, measured, Severity::Warning));
-        let Measure::Known(dimension) = measured.value else { continue };
+        let Measure::Dimension(dimension) = measured.value else { continue };
         findings.extend(label_unit::wrong_label(&labels, model, bound, &dimension));
     }
     findings.extend(lab.plots.iter().flat_map(|plot| label_unit::contradicting_units(plot, model)));

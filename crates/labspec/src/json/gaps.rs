@@ -7,9 +7,9 @@ impl JsonParser<'_> {
     /// Advances to the next significant character. Comments and invisible characters are reported.
     pub(super) fn gap(&mut self) {
         while let Some(c) = self.peek() {
-            let start = self.at;
+            let start = self.offset;
             match c {
-                ' ' | '\t' | '\n' | '\r' => self.at += 1,
+                ' ' | '\t' | '\n' | '\r' => self.offset += 1,
                 '#' => self.line_comment(),
                 '/' if self.starts("//") => self.line_comment(),
                 '/' if self.starts("/*") => {
@@ -21,7 +21,7 @@ impl JsonParser<'_> {
                     while self.peek().is_some_and(is_invisible) {
                         self.bump();
                     }
-                    let range = start..self.at;
+                    let range = start..self.offset;
                     self.change(RepeatedError::Invisible, vec![(range, " ".to_string())]);
                 }
                 _ => return,
@@ -35,8 +35,8 @@ impl JsonParser<'_> {
     }
 
     fn comment(&mut self, end: usize) {
-        let range = self.at..end;
-        self.at = end;
+        let range = self.offset..end;
+        self.offset = end;
         self.report(Problem::replaced(Mistake::Comment, range, ""));
     }
 
@@ -45,8 +45,8 @@ impl JsonParser<'_> {
         if self.comment_open {
             return self.line_end();
         }
-        match self.text.get(self.at + 2..).and_then(|rest| rest.find("*/")) {
-            Some(i) => self.at + 2 + i + 2,
+        match self.text.get(self.offset + 2..).and_then(|rest| rest.find("*/")) {
+            Some(i) => self.offset + 2 + i + 2,
             None => {
                 // The search is not repeated: a hostile text can open thousands of comments.
                 self.comment_open = true;
@@ -55,10 +55,10 @@ impl JsonParser<'_> {
         }
     }
 
-    /// Whether a comment begins at `at`.
-    pub(super) fn is_comment(&self, at: usize) -> bool {
+    /// Whether a comment begins at `offset`.
+    pub(super) fn is_comment(&self, offset: usize) -> bool {
         self.text
-            .get(at..)
+            .get(offset..)
             .is_some_and(|t| t.starts_with(['#']) || t.starts_with("//") || t.starts_with("/*"))
     }
 }

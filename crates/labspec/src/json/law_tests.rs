@@ -131,33 +131,33 @@ proptest! {
     /// The parser accepts the same texts as serde_json with the same values; all others have a finding.
     #[test]
     fn acceptance_is_that_of_serde(text in nearly_json()) {
-        let ours = run(&text);
-        let theirs: Option<serde_json::Value> = serde_json::from_str(&text).ok();
-        prop_assert_eq!(!ours.broken, theirs.is_some(), "{:?}", text);
-        prop_assert_eq!(ours.broken, ours.problems.iter().any(|p| !matches!(p.mistake, Mistake::Twice(_))));
-        if let Some(theirs) = theirs {
-            prop_assert_eq!(to_serde(&ours.node.unwrap()), floats(theirs));
+        let read = run(&text);
+        let by_serde: Option<serde_json::Value> = serde_json::from_str(&text).ok();
+        prop_assert_eq!(!read.broken, by_serde.is_some(), "{:?}", text);
+        prop_assert_eq!(read.broken, read.problems.iter().any(|p| !matches!(p.mistake, Mistake::Twice(_))));
+        if let Some(by_serde) = by_serde {
+            prop_assert_eq!(to_serde(&read.node.unwrap()), floats(by_serde));
         }
     }
 
     /// Strict JSON: the values of serde_json, the spans of jsonc-parser.
     #[test]
     fn strict_json_is_read_exactly(text in strict_json()) {
-        let ours = run(&text);
-        prop_assert!(!ours.broken, "{:?}: {:?}", text, ours.problems);
-        let node = ours.node.unwrap();
+        let read = run(&text);
+        prop_assert!(!read.broken, "{:?}: {:?}", text, read.problems);
+        let node = read.node.unwrap();
         prop_assert_eq!(to_serde(&node), floats(serde_json::from_str(&text).unwrap()));
-        let theirs = jsonc_parser::parse_to_ast(&text, &Default::default(), &Default::default()).unwrap().value.unwrap();
+        let reference = jsonc_parser::parse_to_ast(&text, &Default::default(), &Default::default()).unwrap().value.unwrap();
         let (mut a, mut b) = (Vec::new(), Vec::new());
         list_spans(&node, &mut a);
-        reference_spans(&theirs, &mut b);
+        reference_spans(&reference, &mut b);
         prop_assert_eq!(a, b);
     }
 
     #[test]
     fn any_text_causes_no_panic(text in any::<String>()) {
-        let ours = run(&text);
-        prop_assert_eq!(ours.broken, serde_json::from_str::<serde_json::Value>(&text).is_err());
-        prop_assert_eq!(ours.broken, !ours.problems.is_empty());
+        let read = run(&text);
+        prop_assert_eq!(read.broken, serde_json::from_str::<serde_json::Value>(&text).is_err());
+        prop_assert_eq!(read.broken, !read.problems.is_empty());
     }
 }

@@ -10,12 +10,12 @@ use std::ops::Range;
 impl JsonParser<'_> {
     /// Reads a number or a word, or a text without its quotes.
     pub(super) fn literal(&mut self) -> Node {
-        let start = self.at;
+        let start = self.offset;
         let length = self.rest().find(|c: char| !is_part(c)).unwrap_or(self.rest().len());
         let token = self.rest().get(..length).unwrap_or("");
         let behind = self.rest().get(length..).unwrap_or("").trim_start_matches([' ', '\t']);
         if let Some(json) = exact(token).filter(|_| !computes(behind)) {
-            self.at += length;
+            self.offset += length;
             return self.node(json, start);
         }
         // The rest of the line after the word belongs to it, unless the word is a value by itself.
@@ -23,8 +23,8 @@ impl JsonParser<'_> {
         if !ends_value(behind) && word.is_none() {
             return self.bare_text();
         }
-        self.at += length;
-        let range = start..self.at;
+        self.offset += length;
+        let range = start..self.offset;
         match word {
             Some(ForeignWord::Means(json, right)) => {
                 let mistake = Mistake::Word { word: token.to_string(), right };
@@ -51,7 +51,7 @@ impl JsonParser<'_> {
                     let number = number_before_unit(token).and_then(|number| number.parse::<f64>().ok());
                     return self.node(number.map_or(Json::Broken, Json::Number), start);
                 }
-                self.at = start;
+                self.offset = start;
                 self.bare_text()
             }
         }
@@ -61,7 +61,7 @@ impl JsonParser<'_> {
     fn bare_text(&mut self) -> Node {
         let range = self.bare_run();
         let start = range.start;
-        self.at = range.end;
+        self.offset = range.end;
         let text = self.text.get(range.clone()).unwrap_or("");
         if text.chars().any(char::is_alphabetic) && !text.starts_with(|c: char| c.is_ascii_digit()) {
             self.report(problem::bare(Mistake::BareText, range.clone(), text));
@@ -73,9 +73,9 @@ impl JsonParser<'_> {
     }
 
     fn bare_run(&mut self) -> Range<usize> {
-        let start = self.at;
+        let start = self.offset;
         self.bump();
-        let mut depth = usize::from(self.text.get(start..self.at).is_some_and(|t| t == "("));
+        let mut depth = usize::from(self.text.get(start..self.offset).is_some_and(|t| t == "("));
         while let Some(c) = self.peek() {
             match c {
                 '\n' | '\r' => break,
@@ -85,18 +85,18 @@ impl JsonParser<'_> {
                 '"' | '\'' => {
                     // Quotes inside brackets belong to a call: data.body("ball").
                     let line = self.line_end();
-                    let inside = self.text.get(self.at + 1..line).unwrap_or("");
+                    let inside = self.text.get(self.offset + 1..line).unwrap_or("");
                     match inside.find(c).filter(|_| depth > 0) {
-                        Some(close) => self.at += 1 + close,
+                        Some(close) => self.offset += 1 + close,
                         None => break,
                     }
                 }
-                _ if c.is_whitespace() && self.is_comment(self.at + c.len_utf8()) => break,
+                _ if c.is_whitespace() && self.is_comment(self.offset + c.len_utf8()) => break,
                 _ => {}
             }
             self.bump();
         }
-        start..start + self.text.get(start..self.at).map_or(0, |t| t.trim_end().len())
+        start..start + self.text.get(start..self.offset).map_or(0, |t| t.trim_end().len())
     }
 
     /// The length of the name that begins here: letters, digits, `_`, `$`, `-`.

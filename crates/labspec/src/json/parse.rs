@@ -90,7 +90,7 @@ impl JsonParser<'_> {
             return Ok(None);
         }
         let node = if self.key_ahead() {
-            let start = self.at;
+            let start = self.offset;
             self.report(Problem::replaced(Mistake::OpeningMissing, start..start, "{"));
             self.adjust_bracket_count('{', 1);
             Some(self.members(start)?)
@@ -99,7 +99,7 @@ impl JsonParser<'_> {
         };
         self.gap();
         if !self.rest().trim().is_empty() {
-            let rest = self.at..self.at + self.rest().trim_end().len();
+            let rest = self.offset..self.offset + self.rest().trim_end().len();
             self.report(problem::behind(rest, self.text));
         }
         Ok(node)
@@ -126,19 +126,19 @@ impl JsonParser<'_> {
         let Some(c) = self.peek() else { return Ok(None) };
         self.values += 1;
         if self.values > MAX_VALUES {
-            self.report(Problem::new(Mistake::TooMany, self.at..self.at + 1));
+            self.report(Problem::new(Mistake::TooMany, self.offset..self.offset + 1));
             return Err(LimitReached);
         }
         Ok(match c {
             '{' => {
-                let start = self.at;
+                let start = self.offset;
                 self.bump();
                 Some(self.members(start)?)
             }
             '[' => Some(self.items()?),
             ',' | ':' | '=' | ';' | '}' | ']' => None,
             _ if self.is_quote(c) => {
-                let start = self.at;
+                let start = self.offset;
                 let text = self.string(false);
                 Some(self.node(Json::Text(text), start))
             }
@@ -148,7 +148,7 @@ impl JsonParser<'_> {
 
     /// A node from `start` to the current position.
     pub(super) fn node(&self, json: Json, start: usize) -> Node {
-        Node { json, span: self.below.span(start..self.at) }
+        Node { json, span: self.below.span(start..self.offset) }
     }
 
     fn enter(&mut self, bracket: char, start: usize) -> Result<(), LimitReached> {
@@ -166,7 +166,7 @@ impl JsonParser<'_> {
         let mut members: Vec<Member> = Vec::new();
         let mut seen: HashMap<String, Range<usize>> = HashMap::new();
         let mut first = true;
-        let mut end = self.at;
+        let mut end = self.offset;
         loop {
             self.gap();
             match self.peek() {
@@ -192,7 +192,7 @@ impl JsonParser<'_> {
                     continue;
                 }
                 Some('"') if self.is_lone_quote() => {
-                    self.report(Problem::replaced(Mistake::StrayQuote, self.at..self.at + 1, ""));
+                    self.report(Problem::replaced(Mistake::StrayQuote, self.offset..self.offset + 1, ""));
                     self.bump();
                     continue;
                 }
@@ -210,7 +210,7 @@ impl JsonParser<'_> {
                 }
                 members.push(member);
             }
-            end = self.at;
+            end = self.offset;
             self.separator(true);
         }
         self.open.pop();
@@ -224,10 +224,10 @@ impl JsonParser<'_> {
 
     /// Ends an object at `end`, before the comma that precedes the next item of its list.
     fn end_before_item(&mut self, end: usize) {
-        let next = self.at;
-        self.at = end;
+        let next = self.offset;
+        self.offset = end;
         self.adjust_bracket_count('}', 1);
-        let mistake = Mistake::BracketMissing { mine: '}', found: '{' };
+        let mistake = Mistake::BracketMissing { expected: '}', found: '{' };
         self.report(Problem::replaced(mistake, end..end, "}").related(next..next + 1));
     }
 
@@ -240,7 +240,7 @@ impl JsonParser<'_> {
 
     /// Reads a key with its value; `None` for other text, which is reported.
     fn member(&mut self) -> Result<Option<Member>, LimitReached> {
-        let start = self.at;
+        let start = self.offset;
         let Some(key) = self.key() else {
             if matches!(self.peek(), Some('{' | '[')) {
                 self.report(Problem::new(Mistake::KeyMissing, start..start + 1));
@@ -251,7 +251,7 @@ impl JsonParser<'_> {
             }
             return Ok(None);
         };
-        let end = self.at;
+        let end = self.offset;
         self.gap();
         let colon = self.colon(end);
         let value = match self.value()? {
@@ -275,8 +275,8 @@ impl JsonParser<'_> {
         if length == 0 || !behind.starts_with([':', '=', '"']) {
             return None;
         }
-        let range = self.at..self.at + length;
-        self.at = range.end;
+        let range = self.offset..self.offset + length;
+        self.offset = range.end;
         let word = self.text.get(range.clone()).unwrap_or("");
         self.report(problem::bare(Mistake::BareKey, range.clone(), word));
         Some(self.verbatim(range))
@@ -284,13 +284,13 @@ impl JsonParser<'_> {
 
     /// Reads the colon after a key that ends at `end`. Returns whether there is a colon or a similar sign.
     fn colon(&mut self, end: usize) -> bool {
-        let start = self.at;
+        let start = self.offset;
         if self.starts(":") {
             self.bump();
         } else if self.starts("=") {
             let length = if self.starts("=>") || self.starts("==") { 2 } else { 1 };
-            self.at += length;
-            self.report(Problem::replaced(Mistake::Equals, start..self.at, ":"));
+            self.offset += length;
+            self.report(Problem::replaced(Mistake::Equals, start..self.offset, ":"));
         } else {
             if !matches!(self.peek(), None | Some(',' | ';' | '}' | ']')) {
                 self.report(Problem::replaced(Mistake::ColonMissing, end..end, ":"));
@@ -299,23 +299,23 @@ impl JsonParser<'_> {
         }
         loop {
             self.gap();
-            let again = self.at;
+            let again = self.offset;
             if !matches!(self.peek(), Some(':' | '=')) {
                 return true;
             }
             self.bump();
-            self.report(Problem::replaced(Mistake::SecondColon, again..self.at, ""));
+            self.report(Problem::replaced(Mistake::SecondColon, again..self.offset, ""));
         }
     }
 
     /// Reads a list.
     fn items(&mut self) -> Result<Node, LimitReached> {
-        let start = self.at;
+        let start = self.offset;
         self.bump();
         self.enter('[', start)?;
         let mut items = Vec::new();
         let mut first = true;
-        let mut end = self.at;
+        let mut end = self.offset;
         loop {
             self.gap();
             match self.peek() {
@@ -337,8 +337,8 @@ impl JsonParser<'_> {
                 }
                 // At a key, the list was intended to end before it.
                 Some(_) if !first && self.key_ahead() && self.open.iter().any(|(c, _)| *c == '{') => {
-                    let key = self.at;
-                    self.at = end;
+                    let key = self.offset;
+                    self.offset = end;
                     self.adjust_bracket_count(']', 1);
                     self.report(Problem::replaced(Mistake::ListGoesOn, end..end, "]").related(key..key + 1));
                     break;
@@ -347,7 +347,7 @@ impl JsonParser<'_> {
             }
             first = false;
             let item = self.value()?;
-            end = self.at;
+            end = self.offset;
             match item {
                 Some(item) => items.push(item),
                 None => {

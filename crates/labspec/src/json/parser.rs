@@ -13,7 +13,7 @@ pub(super) struct LimitReached;
 pub(super) struct JsonParser<'a> {
     pub(super) text: &'a str,
     pub(super) below: &'a SourceMap,
-    pub(super) at: usize,
+    pub(super) offset: usize,
     /// The open brackets, with their positions.
     pub(super) open: Vec<(char, usize)>,
     pub(super) values: usize,
@@ -37,7 +37,7 @@ impl<'a> JsonParser<'a> {
         JsonParser {
             text,
             below,
-            at: 0,
+            offset: 0,
             open: Vec::new(),
             values: 0,
             brackets: count(text),
@@ -55,7 +55,7 @@ impl<'a> JsonParser<'a> {
     // Lookahead and movement.
 
     pub(super) fn rest(&self) -> &'a str {
-        self.text.get(self.at..).unwrap_or("")
+        self.text.get(self.offset..).unwrap_or("")
     }
 
     pub(super) fn peek(&self) -> Option<char> {
@@ -67,12 +67,12 @@ impl<'a> JsonParser<'a> {
     }
 
     pub(super) fn bump(&mut self) {
-        self.at += self.peek().map_or(0, char::len_utf8);
+        self.offset += self.peek().map_or(0, char::len_utf8);
     }
 
     /// The end of the current line.
     pub(super) fn line_end(&mut self) -> usize {
-        self.line_from(self.at)
+        self.line_from(self.offset)
     }
 
     /// The end of the line that contains `from`. Calls must not go back to an earlier line.
@@ -94,7 +94,7 @@ impl<'a> JsonParser<'a> {
 
     /// The end of the text read so far, without trailing spaces.
     pub(super) fn before(&self) -> usize {
-        self.text.get(..self.at).map_or(self.at, |t| t.trim_end().len())
+        self.text.get(..self.offset).map_or(self.offset, |t| t.trim_end().len())
     }
 
     // Problems.

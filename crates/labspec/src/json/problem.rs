@@ -83,14 +83,14 @@ pub enum Mistake {
     /// A closing bracket of the other kind.
     OtherBracket {
         /// The intended bracket.
-        mine: char,
+        expected: char,
         /// The bracket in the text.
         found: char,
     },
     /// A bracket is missing before one that closes the enclosing value, or before the next item of a list.
     BracketMissing {
         /// The missing bracket.
-        mine: char,
+        expected: char,
         /// The bracket in the text.
         found: char,
     },
@@ -210,10 +210,10 @@ impl Problem {
 
 /// The error of brackets that are open at the end of the text.
 pub(super) fn unclosed(open: &[(char, usize)], end: usize) -> Problem {
-    let Some((innermost, at)) = open.last().copied() else { return Problem::new(Mistake::Nothing, 0..0) };
+    let Some((innermost, offset)) = open.last().copied() else { return Problem::new(Mistake::Nothing, 0..0) };
     let closing: String = open.iter().rev().map(|(c, _)| if *c == '{' { '}' } else { ']' }).collect();
     let mistake = Mistake::Unclosed { open: innermost, closing: closing.clone() };
-    Problem::new(mistake, at..at + 1).related(end..end).repair(end..end, closing)
+    Problem::new(mistake, offset..offset + 1).related(end..end).repair(end..end, closing)
 }
 
 /// The error of text after the value.
@@ -300,8 +300,8 @@ pub(super) fn together(
     let each = |changes: &Vec<TextChange>| {
         let (region, right) = rewritten(&changes.iter().collect::<Vec<_>>(), text)?;
         let count = if kind == RepeatedError::Typographic { changes.len() } else { 1 };
-        let at = first(std::slice::from_ref(changes), text);
-        Some(repeated(kind, count, at, text).repair(region, right))
+        let start = first(std::slice::from_ref(changes), text);
+        Some(repeated(kind, count, start, text).repair(region, right))
     };
     list.iter().take(super::MAX_ERRORS).filter_map(each).collect()
 }
@@ -326,11 +326,11 @@ fn repeated(kind: RepeatedError, count: usize, span: Range<usize>, text: &str) -
 /// Combines changes into one that covers the range from the first to the last.
 fn rewritten(changes: &[&TextChange], text: &str) -> Option<TextChange> {
     let range = changes.first()?.0.start..changes.last()?.0.end;
-    let (mut new, mut at) = (String::new(), range.start);
+    let (mut new, mut offset) = (String::new(), range.start);
     for (span, right) in changes {
-        new.push_str(text.get(at..span.start)?);
+        new.push_str(text.get(offset..span.start)?);
         new.push_str(right);
-        at = span.end;
+        offset = span.end;
     }
     Some((range, new))
 }

@@ -10,7 +10,7 @@ impl JsonParser<'_> {
         let mut end = self.before();
         self.gap();
         loop {
-            let start = self.at;
+            let start = self.offset;
             match self.peek() {
                 None | Some('}' | ']') => return,
                 Some(',') => {
@@ -51,8 +51,8 @@ impl JsonParser<'_> {
         }
     }
 
-    fn digit_before(&self, at: usize) -> bool {
-        self.text.get(..at).is_some_and(|t| t.ends_with(|c: char| c.is_ascii_digit()))
+    fn digit_before(&self, offset: usize) -> bool {
+        self.text.get(..offset).is_some_and(|t| t.ends_with(|c: char| c.is_ascii_digit()))
     }
 
     /// Whether the next item begins with this character.
@@ -70,22 +70,22 @@ impl JsonParser<'_> {
 
     /// Skips text that has no place in the grammar: up to the next comma, bracket, quote or line end.
     pub(super) fn stray(&mut self) -> Range<usize> {
-        let start = self.at;
+        let start = self.offset;
         self.bump();
         while let Some(c) = self.peek() {
             if matches!(c, ',' | ';' | '\n' | '\r' | '{' | '}' | '[' | ']') || self.is_quote(c) {
                 break;
             }
-            if c.is_whitespace() && self.is_comment(self.at + c.len_utf8()) {
+            if c.is_whitespace() && self.is_comment(self.offset + c.len_utf8()) {
                 break;
             }
             self.bump();
         }
-        start..start + self.text.get(start..self.at).map_or(0, |t| t.trim_end().len())
+        start..start + self.text.get(start..self.offset).map_or(0, |t| t.trim_end().len())
     }
 
     pub(super) fn extra_comma(&mut self, first: bool) {
-        let start = self.at;
+        let start = self.offset;
         self.bump();
         self.report(Problem::replaced(Mistake::ExtraComma { first }, start..start + 1, ""));
     }
@@ -108,7 +108,7 @@ impl JsonParser<'_> {
     }
 
     pub(super) fn stray_bracket(&mut self) {
-        let start = self.at;
+        let start = self.offset;
         let c = self.peek().unwrap_or('}');
         self.bump();
         self.adjust_bracket_count(c, -1);
@@ -116,28 +116,32 @@ impl JsonParser<'_> {
     }
 
     /// Handles a bracket of the other kind. Returns whether the current value ends here.
-    pub(super) fn wrong_bracket(&mut self, mine: char, found: char) -> bool {
-        let start = self.at;
+    pub(super) fn wrong_bracket(&mut self, expected: char, found: char) -> bool {
+        let start = self.offset;
         let [braces, closed_braces, lists, closed_lists] = self.brackets;
-        let (mine_missing, found_extra) = match mine {
+        let (is_expected_missing, found_extra) = match expected {
             '}' => (braces > closed_braces, closed_lists > lists),
             _ => (lists > closed_lists, closed_braces > braces),
         };
         let outer = self.open.iter().any(|(c, _)| (*c == '[') == (found == ']'));
-        match (outer, mine_missing, found_extra) {
+        match (outer, is_expected_missing, found_extra) {
             // The other bracket was intended.
             (_, true, true) | (false, true, _) => {
                 self.bump();
                 self.adjust_bracket_count(found, -1);
-                self.adjust_bracket_count(mine, 1);
-                self.report(Problem::replaced(Mistake::OtherBracket { mine, found }, start..start + 1, mine));
+                self.adjust_bracket_count(expected, 1);
+                self.report(Problem::replaced(
+                    Mistake::OtherBracket { expected, found },
+                    start..start + 1,
+                    expected,
+                ));
                 true
             }
             (true, true, false) | (true, false, false) => {
                 let end = self.before();
-                self.adjust_bracket_count(mine, 1);
-                let mistake = Mistake::BracketMissing { mine, found };
-                self.report(Problem::replaced(mistake, end..end, mine).related(start..start + 1));
+                self.adjust_bracket_count(expected, 1);
+                let mistake = Mistake::BracketMissing { expected, found };
+                self.report(Problem::replaced(mistake, end..end, expected).related(start..start + 1));
                 true
             }
             (true, false, true) | (false, false, _) => {
@@ -152,7 +156,7 @@ impl JsonParser<'_> {
         let before = self.text.get(..comma).unwrap_or("");
         let start = before.trim_end_matches(|c: char| c.is_ascii_digit() || c == '-').len();
         let [whole, decimals] =
-            [start..comma, comma + 1..self.at].map(|part| self.text.get(part).unwrap_or(""));
+            [start..comma, comma + 1..self.offset].map(|part| self.text.get(part).unwrap_or(""));
         format!("{whole}.{decimals}")
     }
 

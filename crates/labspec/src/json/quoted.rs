@@ -31,10 +31,10 @@ impl JsonParser<'_> {
 
     /// Reads the text that begins here: a key, or a value.
     pub(super) fn string(&mut self, key: bool) -> Text {
-        let start = self.at;
+        let start = self.offset;
         let quote = self.peek().unwrap_or('"');
         let end = self.string_end(quote, key);
-        self.at = end.next;
+        self.offset = end.next;
         let inside = end.inside.clone();
         if end.open {
             let last = inside.end == self.text.trim_end().len();
@@ -78,34 +78,34 @@ impl JsonParser<'_> {
     }
 
     fn string_end(&mut self, quote: char, key: bool) -> StringEnd {
-        let from = self.at + quote.len_utf8();
-        let mut at = from;
-        while let Some(c) = self.text.get(at..).and_then(|t| t.chars().next()) {
-            let next = at + c.len_utf8();
+        let from = self.offset + quote.len_utf8();
+        let mut offset = from;
+        while let Some(c) = self.text.get(offset..).and_then(|t| t.chars().next()) {
+            let next = offset + c.len_utf8();
             match c {
                 '\\' => {
                     let escaped = self.text.get(next..).and_then(|t| t.chars().next());
-                    at = next + escaped.filter(|c| !matches!(c, '\n' | '\r')).map_or(0, char::len_utf8);
+                    offset = next + escaped.filter(|c| !matches!(c, '\n' | '\r')).map_or(0, char::len_utf8);
                     continue;
                 }
-                '\n' | '\r' if !self.goes_on(quote, next, key) => return self.line_ends(from, at, key),
+                '\n' | '\r' if !self.goes_on(quote, next, key) => return self.line_ends(from, offset, key),
                 _ if quote == '"' && c == '"' => {
                     if self.json_follows(next) {
-                        return StringEnd { inside: from..at, next, open: false };
+                        return StringEnd { inside: from..offset, next, open: false };
                     }
-                    if let Some(end) = self.lost_quote(from, at, key) {
+                    if let Some(end) = self.lost_quote(from, offset, key) {
                         return StringEnd { inside: from..end, next: end, open: true };
                     }
                     if !self.is_inner(next) {
-                        return StringEnd { inside: from..at, next, open: false };
+                        return StringEnd { inside: from..offset, next, open: false };
                     }
                 }
                 _ if closes(quote, c) && self.json_follows(next) => {
-                    return StringEnd { inside: from..at, next, open: false };
+                    return StringEnd { inside: from..offset, next, open: false };
                 }
                 _ => {}
             }
-            at = next;
+            offset = next;
         }
         self.line_ends(from, self.text.len(), key)
     }
@@ -143,8 +143,8 @@ impl JsonParser<'_> {
     }
 
     /// Whether JSON, or text intended as JSON, continues here after a text.
-    fn json_follows(&self, at: usize) -> bool {
-        let all = self.text.get(at..).unwrap_or("");
+    fn json_follows(&self, offset: usize) -> bool {
+        let all = self.text.get(offset..).unwrap_or("");
         // The range is limited, because a long run of spaces must not be read repeatedly.
         let mut far = MAX_LOOKAHEAD.min(all.len());
         while !all.is_char_boundary(far) {
@@ -179,9 +179,9 @@ impl JsonParser<'_> {
         }
     }
 
-    /// The end of a text without its closing quote, if the double quote at `at` begins the next text.
-    fn lost_quote(&mut self, from: usize, at: usize, key: bool) -> Option<usize> {
-        let content = self.text.get(from..at)?.trim_end();
+    /// The end of a text without its closing quote, if the double quote at `offset` begins the next text.
+    fn lost_quote(&mut self, from: usize, offset: usize, key: bool) -> Option<usize> {
+        let content = self.text.get(from..offset)?.trim_end();
         if key {
             // Example: {"model: "ball"}
             let word = content.strip_suffix([':', '='])?.trim_end();
@@ -190,7 +190,7 @@ impl JsonParser<'_> {
         }
         // Example: {"model": "ball, "stopAt": 2}
         let before = content.strip_suffix(',')?;
-        let name = self.text.get(at + 1..)?;
+        let name = self.text.get(offset + 1..)?;
         let length = name.find(|c: char| !(c.is_alphanumeric() || c == '_'))?;
         let behind = name.get(length..)?.strip_prefix('"')?.trim_start();
         (length > 0 && behind.starts_with(':')).then_some(from + before.len())

@@ -37,15 +37,15 @@ pub(super) enum StringFault {
 pub(super) fn decode(raw: &str) -> Decoded {
     let mut d =
         Decoded { value: String::with_capacity(raw.len()), map: SourceMap::default(), faults: Vec::new() };
-    let mut at = 0;
-    while let Some(rest) = raw.get(at..).filter(|rest| !rest.is_empty()) {
+    let mut offset = 0;
+    while let Some(rest) = raw.get(offset..).filter(|rest| !rest.is_empty()) {
         let plain = rest.find(|c: char| c == '\\' || c == '"' || c < ' ').unwrap_or(rest.len());
         if plain > 0 {
-            d.verbatim(raw, at..at + plain);
-            at += plain;
+            d.verbatim(raw, offset..offset + plain);
+            offset += plain;
             continue;
         }
-        at += d.special(raw, at, rest);
+        offset += d.special(raw, offset, rest);
     }
     d
 }
@@ -61,8 +61,8 @@ impl Decoded {
         self.map.push_whole(c.len_utf8(), range);
     }
 
-    /// Decodes the special character at `at`; returns its length.
-    fn special(&mut self, raw: &str, at: usize, rest: &str) -> usize {
+    /// Decodes the special character at `offset`; returns its length.
+    fn special(&mut self, raw: &str, offset: usize, rest: &str) -> usize {
         let mut chars = rest.chars();
         let first = chars.next().unwrap_or(' ');
         if first != '\\' {
@@ -72,41 +72,41 @@ impl Decoded {
                 c => StringFault::Control(c),
             };
             let length = if rest.starts_with("\r\n") { 2 } else { 1 };
-            self.faults.push((at..at + length, fault));
-            self.verbatim(raw, at..at + length);
+            self.faults.push((offset..offset + length, fault));
+            self.verbatim(raw, offset..offset + length);
             return length;
         }
         if let Some((c, length)) = escape(rest) {
-            self.whole(c, at..at + length);
+            self.whole(c, offset..offset + length);
             return length;
         }
         let Some(c) = chars.next() else {
             // A backslash at the very end has nothing to escape.
-            self.faults.push((at..at + 1, StringFault::Escape('\\')));
-            self.verbatim(raw, at..at + 1);
+            self.faults.push((offset..offset + 1, StringFault::Escape('\\')));
+            self.verbatim(raw, offset..offset + 1);
             return 1;
         };
         let length = 1 + c.len_utf8();
         match c {
             '\n' | '\r' => {
                 let length = if rest.starts_with("\\\r\n") { 3 } else { length };
-                self.faults.push((at..at + length, StringFault::Joined));
+                self.faults.push((offset..offset + length, StringFault::Joined));
                 length
             }
             '\'' | '`' => {
-                self.faults.push((at..at + length, StringFault::Needless(c)));
-                self.whole(c, at..at + length);
+                self.faults.push((offset..offset + length, StringFault::Needless(c)));
+                self.whole(c, offset..offset + length);
                 length
             }
             'u' if rest.get(2..6).and_then(hex).is_some() => {
-                self.faults.push((at..at + 6, StringFault::Half));
-                self.whole('\u{fffd}', at..at + 6);
+                self.faults.push((offset..offset + 6, StringFault::Half));
+                self.whole('\u{fffd}', offset..offset + 6);
                 6
             }
             _ => {
                 // The letter after the backslash is read as itself.
-                self.faults.push((at..at + length, StringFault::Escape(c)));
-                self.verbatim(raw, at..at + 1);
+                self.faults.push((offset..offset + length, StringFault::Escape(c)));
+                self.verbatim(raw, offset..offset + 1);
                 1
             }
         }

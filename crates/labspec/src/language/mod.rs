@@ -64,14 +64,14 @@ impl Languages {
     /// A code is unknown, which is returned.
     pub fn with_codes<'c>(codes: impl IntoIterator<Item = &'c str>) -> Result<Languages, &'c str> {
         codes.into_iter().try_fold(Languages(0), |all, code| {
-            let at = LANGUAGES.iter().position(|language| language.code == code).ok_or(code)?;
-            Ok(Languages(all.0 | 1 << at))
+            let index = LANGUAGES.iter().position(|language| language.code == code).ok_or(code)?;
+            Ok(Languages(all.0 | 1 << index))
         })
     }
 
     /// The languages of the set.
     pub fn iter(self) -> impl Iterator<Item = &'static Language> {
-        let is_one = move |(at, _): &(usize, &&'static Language)| self.0 & 1 << at != 0;
+        let is_one = move |(index, _): &(usize, &&'static Language)| self.0 & 1 << index != 0;
         LANGUAGES.iter().enumerate().filter(is_one).map(|(_, language)| *language)
     }
 

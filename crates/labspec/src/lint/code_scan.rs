@@ -41,8 +41,8 @@ impl CodeScan {
             CodeScan { bare: String::with_capacity(code.len()), quotes: Vec::new(), continued: Vec::new() };
         let mut inside: Option<&str> = None;
         let mut depth = 0i64;
-        let mut at = 0;
-        while let Some(rest) = code.get(at..)
+        let mut offset = 0;
+        while let Some(rest) = code.get(offset..)
             && let Some(c) = rest.chars().next()
         {
             let mut length = c.len_utf8();
@@ -68,12 +68,12 @@ impl CodeScan {
                         inside = Some(end);
                         keep = false;
                     } else if is_typographic(c) {
-                        let before = code.get(..at).and_then(|b| b.chars().next_back());
+                        let before = code.get(..offset).and_then(|b| b.chars().next_back());
                         let after = rest.chars().nth(1);
                         let letter = |c: Option<char>| c.is_some_and(char::is_alphanumeric);
                         // Between letters it is an apostrophe, which appears only in text.
                         if !(matches!(c, '‘' | '’') && letter(before) && letter(after)) {
-                            scan.quotes.push(at..at + length);
+                            scan.quotes.push(offset..offset + length);
                         }
                     } else if matches!(c, '(' | '[' | '{') {
                         depth += 1;
@@ -82,16 +82,16 @@ impl CodeScan {
                     }
                 }
             }
-            for part in code.get(at..at + length).unwrap_or("").chars() {
+            for part in code.get(offset..offset + length).unwrap_or("").chars() {
                 if keep || part == '\n' {
                     scan.bare.push(part);
                 } else {
                     (0..part.len_utf8()).for_each(|_| scan.bare.push(' '));
                 }
             }
-            at += length;
+            offset += length;
             if c == '\n' && (depth > 0 || inside.is_some()) {
-                scan.continued.push(at);
+                scan.continued.push(offset);
             }
         }
         scan
@@ -126,13 +126,13 @@ pub(crate) struct CodeLine<'c> {
 impl CodeScan {
     /// The lines of the scanned code.
     pub(crate) fn lines<'c>(&'c self, code: &'c str) -> impl Iterator<Item = CodeLine<'c>> {
-        let mut at = 0;
+        let mut offset = 0;
         code.split_inclusive('\n').map(move |text| {
-            let start = at;
-            at += text.len();
+            let start = offset;
+            offset += text.len();
             let indent = text.len() - text.trim_start().len();
             let content = start + indent..start + text.trim_end().len().max(indent);
-            CodeLine { start, text, bare: self.bare.get(start..at).unwrap_or(""), indent, content }
+            CodeLine { start, text, bare: self.bare.get(start..offset).unwrap_or(""), indent, content }
         })
     }
 

@@ -212,8 +212,8 @@ mod tests {
 
     fn places(lesson: &Lesson) -> Vec<(&'static str, usize, usize)> {
         let place = |f: &Finding| {
-            let at = lesson.file.position(f.span.start);
-            (f.code, at.line, at.column)
+            let position = lesson.file.position(f.span.start);
+            (f.code, position.line, position.column)
         };
         lesson.findings.iter().map(place).collect()
     }

@@ -20,27 +20,27 @@ fn is_single(c: char) -> bool {
 /// of the text (JSON strings do not contain line breaks).
 pub(super) fn string_end(text: &str, open: usize) -> std::ops::Range<usize> {
     let opening = text.get(open..).and_then(|t| t.chars().next()).unwrap_or('"');
-    let mut at = open + opening.len_utf8();
-    while let Some(c) = text.get(at..).and_then(|t| t.chars().next()) {
-        let next = at + c.len_utf8();
+    let mut offset = open + opening.len_utf8();
+    while let Some(c) = text.get(offset..).and_then(|t| t.chars().next()) {
+        let next = offset + c.len_utf8();
         match c {
-            '\n' => return at..at,
+            '\n' => return offset..offset,
             '\\' => {
-                at = next + text.get(next..).and_then(|t| t.chars().next()).map_or(0, char::len_utf8);
+                offset = next + text.get(next..).and_then(|t| t.chars().next()).map_or(0, char::len_utf8);
                 continue;
             }
-            '"' if opening == '"' => return at..next,
+            '"' if opening == '"' => return offset..next,
             // A string in typographic quotes may contain other quotes; after the closing one, JSON continues.
             _ if opening != '"'
                 && is_quote(c)
                 && is_single(c) == is_single(opening)
                 && json_follows(text.get(next..).unwrap_or("")) =>
             {
-                return at..next;
+                return offset..next;
             }
             _ => {}
         }
-        at = next;
+        offset = next;
     }
     text.len()..text.len()
 }
@@ -63,23 +63,23 @@ fn json_follows(rest: &str) -> bool {
 
 /// The end of the object or list at the beginning of `text` (after spaces); `None` when it has no end.
 pub(super) fn json_end(text: &str) -> Option<usize> {
-    let mut at = text.len() - text.trim_start().len();
+    let mut offset = text.len() - text.trim_start().len();
     let mut depth = 0usize;
     loop {
-        let c = text.get(at..)?.chars().next()?;
+        let c = text.get(offset..)?.chars().next()?;
         match c {
             '{' | '[' => depth += 1,
             '}' | ']' => depth = depth.checked_sub(1)?,
             _ if is_quote(c) => {
-                at = string_end(text, at).end.max(at + c.len_utf8());
+                offset = string_end(text, offset).end.max(offset + c.len_utf8());
                 continue;
             }
             _ if depth == 0 => return None,
             _ => {}
         }
-        at += c.len_utf8();
+        offset += c.len_utf8();
         if depth == 0 {
-            return Some(at);
+            return Some(offset);
         }
     }
 }

@@ -10,24 +10,24 @@ use std::ops::Range;
 fn in_other_words(words: &[String]) -> Option<&'static str> {
     let bare =
         |word: &String| word.trim_start_matches(['{', '.']).trim_end_matches([',', '}']).to_ascii_lowercase();
-    let ours = |word: &String| ["lab", "quiz"].into_iter().find(|w| bare(word) == *w);
+    let kind_of = |word: &String| ["lab", "quiz"].into_iter().find(|w| bare(word) == *w);
     let first = words.first()?;
     match bare(first).as_str() {
-        "json" | "json5" | "jsonc" | "js" | "javascript" => ours(words.get(1)?),
-        _ => ours(first),
+        "json" | "json5" | "jsonc" | "js" | "javascript" => kind_of(words.get(1)?),
+        _ => kind_of(first),
     }
 }
 
 /// `lab` or `quiz`, if the word consists only of our words: `lab-simlab`, `simlab`, `labs`, `quizzes`.
 fn joined_or_plural(language: &str) -> Option<&'static str> {
     let language = language.to_ascii_lowercase();
-    let ours = |word: &str| match word {
+    let kind_of = |word: &str| match word {
         "lab" | "labs" | "simlab" | "simlabs" => Some("lab"),
         "quiz" | "quizzes" | "quizes" | "quizs" => Some("quiz"),
         _ => None,
     };
     let words = language.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
-    let kinds: Option<Vec<_>> = words.map(ours).collect();
+    let kinds: Option<Vec<_>> = words.map(kind_of).collect();
     let kinds = kinds?;
     if kinds.contains(&"quiz") { Some("quiz") } else { kinds.first().copied() }
 }
@@ -94,7 +94,7 @@ pub(super) struct Cut {
 
 /// The first line of a body that opens another fence, which the outer fence should not contain.
 fn inner_opener(body: &str, open: &Opener, any_word: bool) -> Option<usize> {
-    let mut at = 0;
+    let mut offset = 0;
     for line in body.split_inclusive('\n') {
         if let Some(inner) = opener(line, 0)
             && inner.mark == open.mark
@@ -104,11 +104,11 @@ fn inner_opener(body: &str, open: &Opener, any_word: bool) -> Option<usize> {
                 .first()
                 .is_some_and(|w| any_word || w.starts_with(|c: char| c.is_ascii_alphabetic()))
             && line.len() - line.trim_start().len() <= 3
-            && at > 0
+            && offset > 0
         {
-            return Some(at);
+            return Some(offset);
         }
-        at += line.len();
+        offset += line.len();
     }
     None
 }

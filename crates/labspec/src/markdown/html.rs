@@ -21,7 +21,7 @@ pub(crate) enum HtmlToken {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct HtmlTag {
     /// Its range.
-    pub(crate) at: Range<usize>,
+    pub(crate) span: Range<usize>,
     /// Its name in lower case.
     pub(crate) name: String,
     /// Whether it is an end tag.
@@ -72,19 +72,20 @@ fn string(text: &HtmlString) -> String {
 }
 
 fn text_token(html: &str, text: &Spanned<HtmlString>) -> HtmlToken {
-    let at = text.span.start..text.span.end;
-    let before = html.as_bytes().get(at.clone()).and_then(|bytes| bytes.strip_suffix(text.value.as_slice()));
+    let range = text.span.start..text.span.end;
+    let before =
+        html.as_bytes().get(range.clone()).and_then(|bytes| bytes.strip_suffix(text.value.as_slice()));
     match before {
         // In a line end `\r\n`, the second character belongs to the following text.
         Some(before) if before.is_empty() || before == b"\n" => {
-            HtmlToken::Text(at.start + before.len()..at.end)
+            HtmlToken::Text(range.start + before.len()..range.end)
         }
-        _ => HtmlToken::Decoded(string(&text.value), at),
+        _ => HtmlToken::Decoded(string(&text.value), range),
     }
 }
 
 fn tag_token(span: Span, name: &HtmlString, closing: bool, attributes: Vec<(String, String)>) -> HtmlToken {
-    HtmlToken::Tag(HtmlTag { at: span.start..span.end, name: string(name), closing, attributes })
+    HtmlToken::Tag(HtmlTag { span: span.start..span.end, name: string(name), closing, attributes })
 }
 
 /// The tag that is truncated by the end of the text.
@@ -153,11 +154,11 @@ mod tests {
 
     /// The tokens of a text with their source, decoded text with its value, and tags in brackets.
     fn read(html: &str) -> Vec<String> {
-        let slice = |at: &Range<usize>| html[at.clone()].to_string();
+        let slice = |range: &Range<usize>| html[range.clone()].to_string();
         let one = |token: &HtmlToken| match token {
-            HtmlToken::Text(at) => slice(at),
-            HtmlToken::Decoded(text, at) => format!("{}={text}", slice(at)),
-            HtmlToken::Tag(tag) => format!("[{} {}]", tag.name, slice(&tag.at)),
+            HtmlToken::Text(range) => slice(range),
+            HtmlToken::Decoded(text, range) => format!("{}={text}", slice(range)),
+            HtmlToken::Tag(tag) => format!("[{} {}]", tag.name, slice(&tag.span)),
         };
         tokens(html).iter().map(one).collect()
     }
@@ -205,9 +206,11 @@ mod tests {
         ] {
             let html = piece.repeat(100_000 / piece.len());
             let end = tokens(&html).iter().fold(0, |end, token| match token {
-                HtmlToken::Text(at) | HtmlToken::Decoded(_, at) | HtmlToken::Tag(HtmlTag { at, .. }) => {
-                    assert!(end <= at.start && at.start <= at.end, "{piece} {at:?}");
-                    at.end
+                HtmlToken::Text(span)
+                | HtmlToken::Decoded(_, span)
+                | HtmlToken::Tag(HtmlTag { span, .. }) => {
+                    assert!(end <= span.start && span.start <= span.end, "{piece} {span:?}");
+                    span.end
                 }
             });
             assert!(end <= html.len());

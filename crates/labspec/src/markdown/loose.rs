@@ -28,14 +28,14 @@ pub(super) fn bare_json(text: &str) -> impl Iterator<Item = BareObject> {
     text.split_inclusive('\n').filter_map(move |content| {
         let start = line;
         line += content.len();
-        let at = start + content.len() - content.trim_start().len();
-        let after = text.get(at..)?.strip_prefix('{')?.trim_start();
-        if at < behind || tries >= MAX_TRIES || !after.starts_with(extent::is_quote) {
+        let offset = start + content.len() - content.trim_start().len();
+        let after = text.get(offset..)?.strip_prefix('{')?.trim_start();
+        if offset < behind || tries >= MAX_TRIES || !after.starts_with(extent::is_quote) {
             return None;
         }
         tries += 1;
-        let limit = ceil(text, at.saturating_add(MAX_OBJECT));
-        let object = at..at + extent::json_end(text.get(at..limit)?)?;
+        let limit = ceil(text, offset.saturating_add(MAX_OBJECT));
+        let object = offset..offset + extent::json_end(text.get(offset..limit)?)?;
         let json = text.get(object.clone())?;
         let has = |key: &str| {
             json.match_indices(key).any(|(i, _)| {
@@ -56,11 +56,11 @@ pub(super) fn bare_json(text: &str) -> impl Iterator<Item = BareObject> {
 }
 
 /// The nearest character boundary at or after an offset.
-fn ceil(text: &str, mut at: usize) -> usize {
-    while at < text.len() && !text.is_char_boundary(at) {
-        at += 1;
+fn ceil(text: &str, mut offset: usize) -> usize {
+    while offset < text.len() && !text.is_char_boundary(offset) {
+        offset += 1;
     }
-    at.min(text.len())
+    offset.min(text.len())
 }
 
 /// Finds such objects outside of all code, and adds them as blocks with their problems.
@@ -93,10 +93,10 @@ pub(super) fn find(text: &str, scan: &mut Scan) {
 /// Processes the first opening line of a lab or a quiz within a paragraph or within HTML, where Markdown does not recognize
 /// it. Adds its object, and returns where to resume.
 pub(super) fn unseen_fence(text: &str, within: Range<usize>, scan: &mut Scan) -> Option<usize> {
-    let mut at = within.start;
+    let mut offset = within.start;
     for line in text.get(within)?.split_inclusive('\n') {
-        let start = at;
-        at += line.len();
+        let start = offset;
+        offset += line.len();
         if !line.trim_start().starts_with("```") {
             continue;
         }
@@ -106,9 +106,9 @@ pub(super) fn unseen_fence(text: &str, within: Range<usize>, scan: &mut Scan) ->
             continue;
         }
         scan.problems.push(Problem::Unseen(open.clone()));
-        let from = open.rest.as_ref().map_or(at, |rest| rest.start);
+        let from = open.rest.as_ref().map_or(offset, |rest| rest.start);
         let after = text.get(from..ceil(text, from.saturating_add(MAX_OBJECT)))?;
-        let Some(end) = extent::json_end(after).map(|end| from + end) else { return Some(at) };
+        let Some(end) = extent::json_end(after).map(|end| from + end) else { return Some(offset) };
         let object = from + after.len() - after.trim_start().len()..end;
         // The intended closing line would now open a fence.
         let mut resume = text.get(end..)?.find('\n').map_or(text.len(), |i| end + i + 1);
@@ -126,15 +126,15 @@ pub(super) fn unseen_fence(text: &str, within: Range<usize>, scan: &mut Scan) ->
 
 /// Reports opening lines of labs and quizzes within an indented code block, which Markdown displays verbatim.
 pub(super) fn indented_fence(text: &str, within: Range<usize>, scan: &mut Scan) {
-    let mut at = within.start;
+    let mut offset = within.start;
     let lines = text.get(within).unwrap_or("").split_inclusive('\n');
     for line in lines {
-        let start = at;
-        at += line.len();
+        let start = offset;
+        offset += line.len();
         let Some(open) = opener(text, start) else { continue };
         // A page that explains the format may display a fence like this. It is reported only if it contains a lab or a
         // quiz.
-        let below = text.get(at..ceil(text, at.saturating_add(200))).unwrap_or("").trim_start();
+        let below = text.get(offset..ceil(text, offset.saturating_add(200))).unwrap_or("").trim_start();
         let holds_json =
             below.strip_prefix('{').is_some_and(|t| t.trim_start().starts_with(extent::is_quote));
         if holds_json && !matches!(open.kind(), BlockKind::Code { .. }) {

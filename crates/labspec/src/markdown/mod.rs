@@ -261,7 +261,8 @@ fn pass(text: &str, from: usize, scan: &mut Scan) -> Option<usize> {
 /// Appends a piece of a block: the bytes of the file, or their Markdown replacement (tabs, line ends).
 fn append(text: &str, body: &mut Text, part: &str, range: Range<usize>) {
     // The parser omits the `\r` of a line end. `\n` represents both, so that no position is between them.
-    let returned = range.start.checked_sub(1).is_some_and(|at| text.get(at..range.start) == Some("\r"));
+    let returned =
+        range.start.checked_sub(1).is_some_and(|offset| text.get(offset..range.start) == Some("\r"));
     if let Some(rest) = part.strip_prefix('\n').filter(|_| returned) {
         body.value.push('\n');
         body.map.push_whole(1, range.start - 1..range.start + 1);
@@ -305,7 +306,7 @@ fn block(text: &str, span: Range<usize>, body: Text, scan: &mut Scan) -> Option<
     let mut resume = None;
     if let Some(cut) = cut {
         let end = body.map.span(0..cut.end).end;
-        resume = cut.resume.map(|at| line_start(text, body.map.span(at..at).start));
+        resume = cut.resume.map(|offset| line_start(text, body.map.span(offset..offset).start));
         scan.problems.push(Problem::Unclosed { open: open.clone(), end, resume, kind: kind.clone() });
         span.end = resume.unwrap_or(span.end);
         body.value.truncate(cut.end);
@@ -337,8 +338,8 @@ fn with_first_line(text: &str, open: &Opener, body: Text) -> Text {
 }
 
 /// The start of the line that contains a byte.
-fn line_start(text: &str, at: usize) -> usize {
-    text.get(..at).and_then(|before| before.rfind('\n')).map_or(0, |newline| newline + 1)
+fn line_start(text: &str, offset: usize) -> usize {
+    text.get(..offset).and_then(|before| before.rfind('\n')).map_or(0, |newline| newline + 1)
 }
 
 #[cfg(test)]
@@ -355,8 +356,8 @@ mod tests {
         let scan = scanned(text);
         assert_eq!(scan.problems, []);
         assert_eq!(scan.blocks[0].body.value, "{\"model\":\n \"ball\"}\n");
-        let at = scan.blocks[0].body.value.find("ball").unwrap();
-        assert_eq!(&text[scan.blocks[0].body.span_of(at..at + 4)], "ball");
+        let offset = scan.blocks[0].body.value.find("ball").unwrap();
+        assert_eq!(&text[scan.blocks[0].body.span_of(offset..offset + 4)], "ball");
         assert_eq!(scan.blocks[1].body.value.trim(), "{\"id\": 1}");
         assert_eq!(&text[scan.blocks[1].body.span_of(0..9)], "{\"id\": 1}");
     }

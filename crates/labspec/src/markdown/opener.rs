@@ -51,10 +51,10 @@ impl Opener {
     }
 }
 
-/// Reads the opening line that begins at `at` (possibly indented).
-pub(super) fn opener(text: &str, at: usize) -> Option<Opener> {
-    let line = text.get(at..)?.lines().next()?;
-    let start = at + line.len() - line.trim_start().len();
+/// Reads the opening line that begins at `offset` (possibly indented).
+pub(super) fn opener(text: &str, offset: usize) -> Option<Opener> {
+    let line = text.get(offset..)?.lines().next()?;
+    let start = offset + line.len() - line.trim_start().len();
     let line = line.trim();
     let mark = line.chars().next().filter(|c| matches!(c, '`' | '~'))?;
     let info = line.trim_start_matches(mark);
@@ -75,17 +75,17 @@ pub(super) fn opener(text: &str, at: usize) -> Option<Opener> {
 fn other_text_start(info: &str) -> Option<usize> {
     let first = info.split_whitespace().next()?;
     if first == "lab" || first == "quiz" || first.starts_with("lab{") || first.starts_with("quiz{") {
-        return info.find(['{', '[']).filter(|&at| !is_attributes(info.get(at..).unwrap_or("")));
+        return info.find(['{', '[']).filter(|&offset| !is_attributes(info.get(offset..).unwrap_or("")));
     }
     if first.starts_with("{.") || first.starts_with("{lab") || first.starts_with("{quiz") {
         return None;
     }
     // Attributes are words, key=value pairs and {…}; other text is code.
-    let mut at = info.len() - info.trim_start().len() + first.len();
+    let mut offset = info.len() - info.trim_start().len() + first.len();
     let mut plain = 0;
     let mut candidate = None;
-    while let Some(word) = info.get(at..).and_then(|rest| rest.split_whitespace().next()) {
-        let begin = at + info.get(at..)?.find(word)?;
+    while let Some(word) = info.get(offset..).and_then(|rest| rest.split_whitespace().next()) {
+        let begin = offset + info.get(offset..)?.find(word)?;
         let key = word.split('=').next().unwrap_or("");
         let is_name = !key.is_empty()
             && key.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.' | ':'));
@@ -94,7 +94,7 @@ fn other_text_start(info: &str) -> Option<usize> {
             candidate = candidate.or(Some(begin));
             plain += if is_name { 1 } else { 3 };
         }
-        at = begin + word.len();
+        offset = begin + word.len();
     }
     // One or two plain words after the language are common (`title`, `numbered`); a listing has more. After a file name,
     // only a listing can follow.

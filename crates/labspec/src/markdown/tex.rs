@@ -17,14 +17,14 @@ pub(crate) fn command(text: &str) -> IResult<&str, &str> {
 pub(crate) fn group(text: &str, longest: usize) -> IResult<&str, &str> {
     let (inside, _) = char('{').parse(text)?;
     let mut depth = 1_usize;
-    for (at, byte) in inside.bytes().enumerate().take(longest + 1) {
+    for (offset, byte) in inside.bytes().enumerate().take(longest + 1) {
         match byte {
             b'{' => depth += 1,
             b'}' => depth -= 1,
             _ => {}
         }
         if depth == 0
-            && let (Some(group), Some(rest)) = (inside.get(..at), inside.get(at + 1..))
+            && let (Some(group), Some(rest)) = (inside.get(..offset), inside.get(offset + 1..))
         {
             return Ok((rest, group));
         }

@@ -160,10 +160,10 @@ fn passed(w: &TunnellingMonitor, m: &Model, f: &Fields, g: usize, wall: usize) -
     let half = [aabb[3], aabb[4], aabb[5]];
     let crossed = (0..3).any(|k| {
         let part = before[k] / (before[k] - after[k]);
-        let at = |j: usize| before[j] + part * (after[j] - before[j]);
+        let coordinate = |j: usize| before[j] + part * (after[j] - before[j]);
         // Without a crossing, `part` is outside 0..=1 or NaN. A vibration about the plane is not a crossing.
         let far = (before[k] - after[k]).abs() > 2.0 * FAST_DISPLACEMENT * half[k];
-        far && (0.0..=1.0).contains(&part) && (0..3).all(|j| j == k || at(j).abs() < half[j])
+        far && (0.0..=1.0).contains(&part) && (0..3).all(|j| j == k || coordinate(j).abs() < half[j])
     });
     let length = [0, 1, 2].map(|k| after[k] - before[k]).map(|x| x * x).iter().sum::<f64>().sqrt();
     crossed.then_some(length)

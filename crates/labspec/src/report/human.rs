@@ -138,8 +138,8 @@ mod tests {
     fn long_lines_are_shortened_around_the_mark() {
         let text = format!("first\n{}\"exprr\"{}\n", "ä ".repeat(1000), " tail".repeat(1000));
         let file = SourceFile::new("long.md", text.as_str());
-        let at = text.find("exprr").unwrap();
-        let finding = Finding::new(rules::UNKNOWN_KEY, at..at + 5, "no key `exprr`")
+        let offset = text.find("exprr").unwrap();
+        let finding = Finding::new(rules::UNKNOWN_KEY, offset..offset + 5, "no key `exprr`")
             .help("did you mean `expr`?")
             .at(&file);
         let rendered = human(&[finding], &[&file], false);

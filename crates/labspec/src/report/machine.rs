@@ -129,9 +129,9 @@ impl<'a> PlaceFields<'a> {
             return PlaceFields { file: path, ..PlaceFields::default() };
         };
         let bytes = file.snap(span);
-        let [from, to] = [bytes.start, bytes.end].map(|at| file.position(at));
-        let [start, end] = [bytes.start, bytes.end].map(|at| {
-            let EditorPosition { line, character } = file.editor_position(at);
+        let [from, to] = [bytes.start, bytes.end].map(|offset| file.position(offset));
+        let [start, end] = [bytes.start, bytes.end].map(|offset| {
+            let EditorPosition { line, character } = file.editor_position(offset);
             EditorPlace { line, character }
         });
         PlaceFields {

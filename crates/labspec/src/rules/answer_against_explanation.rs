@@ -60,7 +60,7 @@ fn check_question(question: &Question, findings: &mut Vec<Finding>) {
             Some((_, words)) => words,
             None => continue,
         };
-        let printed = html.get(n.at.clone()).unwrap_or("");
+        let printed = html.get(n.span.clone()).unwrap_or("");
         let sign = if n.value < 0.0 { "-" } else { "" };
         findings.push(
             Finding::new(
@@ -68,7 +68,7 @@ fn check_question(question: &Question, findings: &mut Vec<Finding>) {
                 answer.span.clone(),
                 format!("the answer is {key}, but its explanation gives {sign}{printed}: {why}"),
             )
-            .related(explain.span_of(n.at.clone()), "the explanation")
+            .related(explain.span_of(n.span.clone()), "the explanation")
             .help("compute it again, and write the same number in both places"),
         );
         return;
@@ -78,13 +78,18 @@ fn check_question(question: &Question, findings: &mut Vec<Finding>) {
 /// Whether a number is the result of a line of the explanation: it follows `=`, `≈`, `:` or `is`, and has the unit of the answer.
 fn is_result(html: &str, n: &TextNumber, unit: &str) -> bool {
     // The text near the number.
-    let back =
-        html.get(..n.at.start).unwrap_or("").char_indices().rev().nth(CONTEXT_LENGTH).map_or(0, |(at, _)| at);
-    let before = plain(html.get(back..n.at.start).unwrap_or(""));
+    let back = html
+        .get(..n.span.start)
+        .unwrap_or("")
+        .char_indices()
+        .rev()
+        .nth(CONTEXT_LENGTH)
+        .map_or(0, |(offset, _)| offset);
+    let before = plain(html.get(back..n.span.start).unwrap_or(""));
     let before = before.trim_end_matches(['$', ' ', '-', '−', '{', '~']).trim_end_matches("about");
     let before = before.trim_end();
     let behind = ["=", "≈", ":", " is", "\\approx"].iter().any(|mark| before.ends_with(mark));
-    let after: String = html.get(n.at.end..).unwrap_or("").chars().take(CONTEXT_LENGTH).collect();
+    let after: String = html.get(n.span.end..).unwrap_or("").chars().take(CONTEXT_LENGTH).collect();
     let after = plain_unit(&plain(&after));
     // A number in another unit is another quantity.
     let ends = after.is_empty() || after.starts_with(['.', ',', ';', ')', ':']);

@@ -60,7 +60,7 @@ mod files {
                 let file = String::from_utf8(file).ok()?;
                 let json = |text: &str| Value::from(text).to_string();
                 let start = file.find(&json(&code))?;
-                let place = |at: usize| Some(start + json(code.get(..at)?).len() - 1);
+                let place = |offset: usize| Some(start + json(code.get(..offset)?).len() - 1);
                 Some(place(mark.start)?..place(mark.end)?)
             }
             _ => Some(mark),

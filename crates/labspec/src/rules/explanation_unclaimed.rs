@@ -104,7 +104,8 @@ fn given_by_question(question: &Question, counted: &Counted) -> Vec<f64> {
     let texts = question.html().into_iter().filter(|text| Some(*text) != question.explain.as_ref());
     let spans: Vec<_> = texts.map(crate::source::Text::span).collect();
     let stated = counted.claimed.iter().chain(&counted.left).chain(&counted.others);
-    let of_question = |s: &&Stated| spans.iter().any(|at| at.start <= s.span.start && s.span.end <= at.end);
+    let of_question =
+        |s: &&Stated| spans.iter().any(|range| range.start <= s.span.start && s.span.end <= range.end);
     stated.filter(of_question).flat_map(values).collect()
 }
 

@@ -26,10 +26,10 @@ pub(crate) fn unclosed(
     match kind {
         BlockKind::Code { .. } => {
             let finding = match resume {
-                Some(at) => {
-                    let line = text.get(at..).and_then(|t| t.lines().next()).unwrap_or("");
+                Some(start) => {
+                    let line = text.get(start..).and_then(|t| t.lines().next()).unwrap_or("");
                     finding.related(
-                        at..at + line.trim_end().len(),
+                        start..start + line.trim_end().len(),
                         "it runs into this line, which begins another block",
                     )
                 }

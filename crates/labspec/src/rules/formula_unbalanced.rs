@@ -34,8 +34,8 @@ const DELIMITERS: [(&str, &str); 4] = [("$$", "$$"), ("$", "$"), ("\\(", "\\)"),
 /// that are read: at most [`MAX_READS`] for each character of the text.
 fn faults(text: &str, plain: bool, work: &mut usize) -> Vec<(Range<usize>, String)> {
     let (mut faults, mut lost) = (Vec::new(), 0);
-    let mut at = 0;
-    while let Some(rest) = text.get(at..).filter(|r| !r.is_empty()) {
+    let mut offset = 0;
+    while let Some(rest) = text.get(offset..).filter(|r| !r.is_empty()) {
         *work += 1;
         let marks = DELIMITERS.iter().filter(|(open, _)| !plain || open.starts_with('$'));
         let Some((open, close)) = marks.into_iter().find(|(open, _)| rest.starts_with(open)) else {
@@ -43,7 +43,7 @@ fn faults(text: &str, plain: bool, work: &mut usize) -> Vec<(Range<usize>, Strin
                 Some(c) => 1 + c.len_utf8(),
                 None => rest.chars().next().map_or(1, char::len_utf8),
             };
-            at += step;
+            offset += step;
             continue;
         };
         let inside = rest.get(open.len()..).unwrap_or("");
@@ -54,18 +54,21 @@ fn faults(text: &str, plain: bool, work: &mut usize) -> Vec<(Range<usize>, Strin
                 break;
             }
             if faults.len() < MAX_IN_TEXT && is_formula(inside, open, work) {
-                faults.push((at..at + open.len(), format!("the formula that `{open}` opens is not closed")));
+                faults.push((
+                    offset..offset + open.len(),
+                    format!("the formula that `{open}` opens is not closed"),
+                ));
             }
             // The text that follows is read as prose.
-            at += open.len();
+            offset += open.len();
             continue;
         };
         let body = inside.get(..length).unwrap_or("");
-        let whole = at..at + open.len() + length + close.len();
+        let whole = offset..offset + open.len() + length + close.len();
         if let Some(message) = unbalanced(body, work) {
             faults.push((whole.clone(), message));
         }
-        at = whole.end;
+        offset = whole.end;
     }
     faults
 }
@@ -96,7 +99,7 @@ fn closing(inside: &str, close: &str, work: &mut usize) -> Option<usize> {
 
 /// Whether the text after an opening delimiter looks like a formula. A price does not.
 fn is_formula(inside: &str, open: &str, work: &mut usize) -> bool {
-    let end = inside.char_indices().nth(MAX_FORMULA).map_or(inside.len(), |(at, _)| at);
+    let end = inside.char_indices().nth(MAX_FORMULA).map_or(inside.len(), |(offset, _)| offset);
     let inside = inside.get(..end).unwrap_or("").split("\n\n").next().unwrap_or("");
     *work += end;
     // A single letter is the name of a quantity: `$g is`. A price begins with a digit; the name of a shell variable is longer.
@@ -114,8 +117,8 @@ const MAX_READS: usize = 2 * MAX_IN_TEXT + MAX_NAME + 3;
 fn unbalanced(body: &str, work: &mut usize) -> Option<String> {
     let (mut depth, mut left) = (0_i64, 0_i64);
     let mut inner: Vec<&str> = Vec::new();
-    let mut at = 0;
-    while let Some(rest) = body.get(at..).filter(|r| !r.is_empty()) {
+    let mut offset = 0;
+    while let Some(rest) = body.get(offset..).filter(|r| !r.is_empty()) {
         let c = rest.chars().next()?;
         *work += 1;
         if c != '\\' {
@@ -123,7 +126,7 @@ fn unbalanced(body: &str, work: &mut usize) -> Option<String> {
             if depth < 0 {
                 return Some("a brace `}` closes nothing".into());
             }
-            at += c.len_utf8();
+            offset += c.len_utf8();
             continue;
         }
         let (after, command) = tex::command(rest).ok()?;
@@ -143,7 +146,7 @@ fn unbalanced(body: &str, work: &mut usize) -> Option<String> {
         if left < 0 {
             return Some("`\\right` has no `\\left`".into());
         }
-        at = body.len() - after.len();
+        offset = body.len() - after.len();
     }
     match (depth, left, inner.pop()) {
         (d, ..) if d > 0 => Some("a brace `{` is not closed".into()),
@@ -172,9 +175,9 @@ fn code(html: &str) -> Vec<Range<usize>> {
         let kind = ["code", "pre"].iter().position(|name| *name == tag.name);
         let Some(open) = kind.and_then(|i| open.get_mut(i)) else { continue };
         if !tag.closing {
-            open.get_or_insert(tag.at.start);
+            open.get_or_insert(tag.span.start);
         } else if let Some(start) = open.take() {
-            all.push(start..tag.at.end);
+            all.push(start..tag.span.end);
         }
     }
     all
@@ -188,7 +191,7 @@ fn finding(span: Range<usize>, message: String) -> Finding {
 pub(crate) fn check_formulas(text: &Text, findings: &mut Vec<Finding>) {
     let html = without_code(text.as_str(), code(text.as_str()).into_iter());
     let found = faults(&html, false, &mut 0).into_iter().take(MAX_IN_TEXT);
-    findings.extend(found.map(|(at, message)| finding(text.span_of(at), message)));
+    findings.extend(found.map(|(span, message)| finding(text.span_of(span), message)));
 }
 
 /// Checks the paragraphs of a lesson.
@@ -206,7 +209,7 @@ pub(crate) fn check_prose(lesson: &Lesson, findings: &mut Vec<Finding>) {
         let code_spans = code_spans.map(|c| c.start - range.start..c.end - range.start);
         let found = faults(&without_code(paragraph, code_spans), true, &mut 0).into_iter().take(MAX_IN_TEXT);
         findings.extend(
-            found.map(|(at, message)| finding(range.start + at.start..range.start + at.end, message)),
+            found.map(|(span, message)| finding(range.start + span.start..range.start + span.end, message)),
         );
     }
 }

@@ -55,22 +55,22 @@ fn faults(html: &str) -> Vec<(Range<usize>, String, MarkupFault)> {
             match opening {
                 // A lone `</p>` makes an empty paragraph, and a lone `</br>` a line break: readers see no difference.
                 None if is_of_models(name) || VOID.contains(&name) => {}
-                None if !of_html && !foreign => faults.push((tag.at, tag.name, MarkupFault::Unknown)),
-                None => faults.push((tag.at, tag.name, MarkupFault::Unopened)),
+                None if !of_html && !foreign => faults.push((tag.span, tag.name, MarkupFault::Unknown)),
+                None => faults.push((tag.span, tag.name, MarkupFault::Unopened)),
                 Some(i) => {
                     let inner = open.split_off(i);
                     let crossed = inner.iter().skip(1).find(|t| !SELF_CLOSING.contains(&t.name.as_str()));
                     if let Some(other) = crossed {
-                        faults.push((other.at.clone(), other.name.clone(), MarkupFault::Crossed(tag.name)));
+                        faults.push((other.span.clone(), other.name.clone(), MarkupFault::Crossed(tag.name)));
                     }
                 }
             }
         } else if is_of_models(name) && !foreign {
             // Another rule reports elements of models.
         } else if !of_html && !foreign && !name.contains('-') {
-            faults.push((tag.at, tag.name, MarkupFault::Unknown));
+            faults.push((tag.span, tag.name, MarkupFault::Unknown));
         } else if !(VOID.contains(&name)
-            || foreign && html.get(tag.at.clone()).is_some_and(|tag| tag.ends_with("/>")))
+            || foreign && html.get(tag.span.clone()).is_some_and(|tag| tag.ends_with("/>")))
         {
             open.push(tag);
         }
@@ -80,17 +80,17 @@ fn faults(html: &str) -> Vec<(Range<usize>, String, MarkupFault)> {
         open.clear();
     }
     let left = open.into_iter().filter(|t| !SELF_CLOSING.contains(&t.name.as_str()));
-    faults.extend(left.map(|t| (t.at, t.name, MarkupFault::Unclosed)));
+    faults.extend(left.map(|t| (t.span, t.name, MarkupFault::Unclosed)));
     faults
 }
 
 /// Checks a text of a lab or a quiz.
 pub(crate) fn check_markup(text: &Text, findings: &mut Vec<Finding>) {
-    for (at, name, fault) in faults(text.as_str()).into_iter().take(MAX_IN_TEXT) {
-        let short_text = shorten(text.value.get(at.clone()).unwrap_or(""));
+    for (span, name, fault) in faults(text.as_str()).into_iter().take(MAX_IN_TEXT) {
+        let short_text = shorten(text.value.get(span.clone()).unwrap_or(""));
         let (message, help) = match fault {
             MarkupFault::Unknown => {
-                findings.push(unknown(text.span_of(at), &name));
+                findings.push(unknown(text.span_of(span), &name));
                 continue;
             }
             MarkupFault::Unclosed => {
@@ -105,7 +105,7 @@ pub(crate) fn check_markup(text: &Text, findings: &mut Vec<Finding>) {
                 format!("write </{name}> before </{outer}>"),
             ),
         };
-        findings.push(Finding::new(HTML_NESTING, text.span_of(at), message).help(help));
+        findings.push(Finding::new(HTML_NESTING, text.span_of(span), message).help(help));
     }
 }
 

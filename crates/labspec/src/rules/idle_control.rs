@@ -157,13 +157,13 @@ fn idle(bench: &mut ObservationBench<'_>, index: usize, values: &[Option<Value>]
     let press = ((PRESS_TIME * steps as f64) as usize).max(1);
     let lab = bench.ready.lab;
     for setting in settings(lab, index, press) {
-        for at in [0, steps / 2] {
-            let late = at > 0;
+        for step in [0, steps / 2] {
+            let late = step > 0;
             // Late in the run, a slider moves from the first of the values.
             let mut seen: Option<ObservationHash> = None;
             for value in &picked {
                 let tried_move = Move {
-                    step: if value.is_none() { at.max(press + 1) } else { at },
+                    step: if value.is_none() { step.max(press + 1) } else { step },
                     control: index,
                     value: value.clone(),
                 };
@@ -183,7 +183,7 @@ fn idle(bench: &mut ObservationBench<'_>, index: usize, values: &[Option<Value>]
             if picked.iter().any(Option::is_none) {
                 // A button is compared with a run in which everything is only recomputed.
                 let mut moves = setting.clone();
-                moves.extend(presses(&Move::nothing(at.max(press + 1)), steps));
+                moves.extend(presses(&Move::nothing(step.max(press + 1)), steps));
                 let Some(record) = bench.run(&moves, steps) else { return false };
                 if seen != Some(record.hash) {
                     return false;
@@ -204,14 +204,14 @@ fn finding(
 ) -> Finding {
     let label = &control.label.value;
     let values: Vec<String> = part.iter().flatten().map(Value::to_string).collect();
-    let at = match values.split_last() {
+    let values_text = match values.split_last() {
         Some((last, rest)) if !rest.is_empty() => format!("at {} and {last}", rest.join(", ")),
         _ => "pressed or not".into(),
     };
     let others =
         if observed.bench.ready.lab.controls.len() > 1 { ", with every other control moved too" } else { "" };
     let why = format!(
-        "{at}, before the run and in the middle of it{others} ({} runs of {} s): every curve, number and position is the same to the last bit",
+        "{values_text}, before the run and in the middle of it{others} ({} runs of {} s): every curve, number and position is the same to the last bit",
         observed.bench.runs - before,
         digits(observed.length, 3)
     );

@@ -48,8 +48,9 @@ pub(crate) fn check_flat_ranges(observed: &mut ObservedLab<'_>, findings: &mut V
         }
         // Every step of the slider, or this many of them.
         let count = (steps as usize).min(TESTED_VALUES);
-        let at = |i: usize| (min.value + (i as f64 * steps / count as f64).round() * step).min(max.value);
-        let values: Vec<f64> = (0..=count).map(at).collect();
+        let value_at =
+            |i: usize| (min.value + (i as f64 * steps / count as f64).round() * step).min(max.value);
+        let values: Vec<f64> = (0..=count).map(value_at).collect();
         let Some(sets) =
             values.iter().map(|v| writes(observed, index, bound, *v)).collect::<Option<Vec<_>>>()
         else {

@@ -142,17 +142,16 @@ fn describe_bracket(mistake: &Mistake) -> Option<MessageParts> {
             "delete it, or look for a bracket that closes too early",
         ),
         Mistake::StrayQuote => message_with_help("this `\"` begins no text", "delete it"),
-        Mistake::OtherBracket { mine, found } => {
-            let what = if *mine == '}' { "an object" } else { "a list" };
-            message_with_help(format!("`{found}` is used where {what} ends"), format!("write `{mine}`"))
+        Mistake::OtherBracket { expected, found } => {
+            let what = if *expected == '}' { "an object" } else { "a list" };
+            message_with_help(format!("`{found}` is used where {what} ends"), format!("write `{expected}`"))
         }
-        Mistake::BracketMissing { mine, found } => {
-            message_with_help(format!("a `{mine}` is missing here"), format!("write `{mine}`")).related(
-                match found {
+        Mistake::BracketMissing { expected, found } => {
+            message_with_help(format!("a `{expected}` is missing here"), format!("write `{expected}`"))
+                .related(match found {
                     '{' => "the next item of the list begins here".to_string(),
                     found => format!("this `{found}` closes the outer bracket"),
-                },
-            )
+                })
         }
         Mistake::ListGoesOn => message_with_help("a `]` is missing here", "write `]`")
             .related("a key begins here, which a list cannot contain"),

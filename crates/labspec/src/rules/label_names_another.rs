@@ -196,7 +196,7 @@ fn a_number(trace: &Trace, bound: Option<&Bound>, all: &[LabelledObject]) -> Opt
 /// The words of a label without its unit.
 fn words_of(label: &str) -> Vec<String> {
     let end = crate::bind::of_label(label).and_then(|(unit, _)| label.rfind(unit));
-    split_words(end.and_then(|at| label.get(..at)).unwrap_or(label))
+    split_words(end.and_then(|boundary| label.get(..boundary)).unwrap_or(label))
 }
 
 /// Whether the label consists only of the name of an object that has the quantity that the expression reads.
@@ -249,18 +249,18 @@ fn displayed<'l>(
     // If several objects have the same name, the first one of the kind that is read is used.
     let mut names: Vec<(usize, usize, usize)> = Vec::new();
     for (i, named) in all.iter().enumerate() {
-        let Some(at) = words.windows(named.words.len()).position(|w| w == named.words) else { continue };
-        let to = at + named.words.len();
-        let within = |n: &(usize, usize, usize)| n.1 <= at && to <= n.2;
+        let Some(start) = words.windows(named.words.len()).position(|w| w == named.words) else { continue };
+        let to = start + named.words.len();
+        let within = |n: &(usize, usize, usize)| n.1 <= start && to <= n.2;
         let same_body = |n: &(usize, usize, usize)| all.get(n.0).is_some_and(|o| o.body == named.body);
-        let covered = names.iter().any(|n| within(n) && (n.1, n.2) != (at, to));
-        match names.iter_mut().find(|n| n.1 == at && n.2 == to && same_body(n)) {
+        let covered = names.iter().any(|n| within(n) && (n.1, n.2) != (start, to));
+        match names.iter_mut().find(|n| n.1 == start && n.2 == to && same_body(n)) {
             Some(counted) if reads.iter().any(|(kind, _)| *kind == named.kind) => counted.0 = i,
             Some(_) => {}
             None if covered => {}
             None => {
-                names.retain(|n| !(at <= n.1 && n.2 <= to) || (n.1, n.2) == (at, to));
-                names.push((i, at, to));
+                names.retain(|n| !(start <= n.1 && n.2 <= to) || (n.1, n.2) == (start, to));
+                names.push((i, start, to));
             }
         }
     }
@@ -317,15 +317,15 @@ fn elements(model: &Model) -> Vec<LabelledObject> {
 
 /// The body to which an object belongs.
 fn body_of(model: &Model, kind: Obj, index: usize) -> Option<usize> {
-    let at = |list: &[i32], i: usize| list.get(i).and_then(|b| usize::try_from(*b).ok());
+    let id_at = |list: &[i32], i: usize| list.get(i).and_then(|b| usize::try_from(*b).ok());
     match kind {
         Obj::Body => Some(index),
-        Obj::Joint => at(&model.jnt_bodyid, index),
-        Obj::Geom => at(&model.geom_bodyid, index),
-        Obj::Site => at(&model.site_bodyid, index),
+        Obj::Joint => id_at(&model.jnt_bodyid, index),
+        Obj::Geom => id_at(&model.geom_bodyid, index),
+        Obj::Site => id_at(&model.site_bodyid, index),
         Obj::Actuator => match *model.actuator_trntype.get(index)? {
             labspec_core::trntype::JOINT | labspec_core::trntype::JOINTINPARENT => {
-                at(&model.jnt_bodyid, at(&model.actuator_trnid, 2 * index)?)
+                id_at(&model.jnt_bodyid, id_at(&model.actuator_trnid, 2 * index)?)
             }
             _ => None,
         },
@@ -333,7 +333,7 @@ fn body_of(model: &Model, kind: Obj, index: usize) -> Option<usize> {
             let kinds = [Obj::Body, Obj::XBody, Obj::Joint, Obj::Geom, Obj::Site, Obj::Actuator];
             let kind = kinds.into_iter().find(|k| model.sensor_objtype.get(index) == Some(&(*k as i32)))?;
             let kind = if kind == Obj::XBody { Obj::Body } else { kind };
-            body_of(model, kind, at(&model.sensor_objid, index)?)
+            body_of(model, kind, id_at(&model.sensor_objid, index)?)
         }
         _ => None,
     }

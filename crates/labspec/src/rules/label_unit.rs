@@ -151,9 +151,9 @@ pub(crate) fn wrong_control(
     bound: &Bound,
     measured: &TextDimensions,
 ) -> Option<Finding> {
-    let Measure::Known(_) = given_by(control) else { return None };
+    let Measure::Dimension(_) = given_by(control) else { return None };
     let (stored, found, expected) = measured.stores.iter().find_map(|stored| {
-        let (Measure::Known(found), Measure::Known(expected)) =
+        let (Measure::Dimension(found), Measure::Dimension(expected)) =
             (stored.measure, names.measure(stored.access.field, stored.access.first, stored.access.count))
         else {
             return None;
@@ -170,8 +170,8 @@ pub(crate) fn wrong_control(
         written(&found),
         written(&expected)
     );
-    let at = bound.text.span_of(stored.span.into());
-    let finding = Finding::new(LABEL_UNIT, label.span(), message).related(at, "it stores this");
+    let span = bound.text.span_of(stored.span.into());
+    let finding = Finding::new(LABEL_UNIT, label.span(), message).related(span, "it stores this");
     Some(
         finding
             .why(why(&found, &expected))

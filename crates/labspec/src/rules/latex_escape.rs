@@ -28,23 +28,24 @@ const COMMANDS: [(char, char, &[&str]); 5] = [
 
 fn check_text(text: &Text, findings: &mut Vec<Finding>) {
     let mut in_formula = false;
-    for (at, c) in text.value.char_indices() {
+    for (offset, c) in text.value.char_indices() {
         in_formula ^= c == '$';
         let Some((_, letter, commands)) = COMMANDS.iter().find(|(control, ..)| *control == c) else {
             continue;
         };
-        let rest = text.value.get(at + 1..).unwrap_or("");
+        let rest = text.value.get(offset + 1..).unwrap_or("");
         // Line breaks are common; they count only inside a formula.
         if matches!(c, '\n' | '\r') && !in_formula {
             continue;
         }
         let command = commands.iter().find(|command| {
-            command.get(1..).is_some_and(|tail| rest.starts_with(tail)) && text.span_of(at..at + 1).len() == 2
+            command.get(1..).is_some_and(|tail| rest.starts_with(tail))
+                && text.span_of(offset..offset + 1).len() == 2
         });
         let Some(command) = command.map(|command| command.trim()) else { continue };
-        let span = text.span_of(at..at + 1);
+        let span = text.span_of(offset..offset + 1);
         let slash = span.start..span.start + 1;
-        let whole = span.start..text.span_of(at..at + command.len()).end;
+        let whole = span.start..text.span_of(offset..offset + command.len()).end;
         findings.push(
             Finding::new(
                 LATEX_ESCAPE,

@@ -30,15 +30,15 @@ fn second_assignment(bare: &str) -> Option<usize> {
         return None;
     }
     let (mut depth, mut count) = (0i32, 0);
-    for (at, c) in bare.char_indices() {
+    for (offset, c) in bare.char_indices() {
         match c {
             '(' | '[' | '{' => depth += 1,
             ')' | ']' | '}' => depth -= 1,
-            '=' if depth == 0 && bare.get(at.saturating_sub(1)..at + 2) == Some(" = ") => {
+            '=' if depth == 0 && bare.get(offset.saturating_sub(1)..offset + 2) == Some(" = ") => {
                 count += 1;
                 if count == 2 {
                     // Skips the assigned name backwards.
-                    let name = bare.get(..at)?.trim_end();
+                    let name = bare.get(..offset)?.trim_end();
                     return Some(name.rfind(' ').map_or(0, |space| space + 1));
                 }
             }

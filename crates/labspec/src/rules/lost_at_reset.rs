@@ -74,7 +74,7 @@ fn describe_lost(
         let set = current(&session);
         session.reset();
         let reset = current(&session);
-        let at = differs(&set, &reset)?;
+        let element = differs(&set, &reset)?;
         // A controller may set an input again before the first step.
         if field.info().kind == Kind::Input && programs.controller.is_some() {
             session.step();
@@ -83,8 +83,9 @@ fn describe_lost(
             session.step();
             differs(&current(&session), &after_reset)?;
         }
-        let name = format!("data.{}[{at}]", field.info().name);
-        let [set, reset] = [&set, &reset].map(|list| digits(list.get(at).copied().unwrap_or(f64::NAN), 6));
+        let name = format!("data.{}[{element}]", field.info().name);
+        let [set, reset] =
+            [&set, &reset].map(|list| digits(list.get(element).copied().unwrap_or(f64::NAN), 6));
         Some(format!(
             "with \"{}\" at {chosen}, {name} is {set}, and {reset} after a reset",
             control.label.value

@@ -17,13 +17,13 @@ pub const NOT_UTF8: &Rule = &Rule {
 pub fn not_utf8(bad: BadText) -> Finding {
     let (span, message) = match bad {
         BadText::Utf16 => (0..0, "this file is UTF-16".to_string()),
-        BadText::Byte { at, byte } => {
+        BadText::Byte { offset, byte } => {
             let old = if byte >= 0xa0 {
                 format!("; in Latin-1 it is `{}`", char::from(byte))
             } else {
                 String::new()
             };
-            (at..at + 1, format!("a byte here is not UTF-8 (0x{byte:02X}{old})"))
+            (offset..offset + 1, format!("a byte here is not UTF-8 (0x{byte:02X}{old})"))
         }
     };
     Finding::error(NOT_UTF8, span, message)

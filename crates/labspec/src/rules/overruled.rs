@@ -135,11 +135,11 @@ fn initial_value(
         return None;
     }
     let differ = |(a, b): (&f64, &f64)| (a - b).abs() > 1e-9 * a.abs().max(b.abs());
-    let at = begins.iter().zip(&says).position(differ)?;
-    let [begins, says] = [begins.get(at)?, says.get(at)?].map(|x| digits(*x, 6));
+    let differing = begins.iter().zip(&says).position(differ)?;
+    let [begins, says] = [begins.get(differing)?, says.get(differing)?].map(|x| digits(*x, 6));
     Some(format!(
         "it displays {current}, for which {} is {says}, but the lab starts with {begins}",
-        elements.get(at)?.name()
+        elements.get(differing)?.name()
     ))
 }
 
@@ -162,10 +162,10 @@ fn overwritten(
         .map(|n| (Setting::new(), n.min(MOST_STEPS)));
     let others = settings(ready.lab, index, 1).into_iter().flat_map(|s| [(s.clone(), 2), (s, LATE_STEPS)]);
     let all: Vec<(Setting, usize)> = late.chain(others).collect();
-    for (setting, at) in all {
+    for (setting, step_count) in all {
         let mut first: Option<Vec<f64>> = None;
         for value in values.iter().flatten() {
-            let (set, then) = after(observed, &setting, at, index, value, elements)?;
+            let (set, then) = after(observed, &setting, step_count, index, value, elements)?;
             runs += 1;
             match &first {
                 Some(other) if *other != then => return None,
@@ -191,14 +191,14 @@ fn overwritten(
 fn after(
     observed: &mut ObservedLab<'_>,
     setting: &[Move],
-    at: usize,
+    step_count: usize,
     index: usize,
     value: &Value,
     elements: &[WrittenElement],
 ) -> Option<(Vec<f64>, Vec<f64>)> {
     let mut session = observed.bench.start();
     let elements_of = |session: &Session<'_>| elements.iter().map(|e| e.value(session)).collect::<Vec<f64>>();
-    for step in 0..at {
+    for step in 0..step_count {
         for m in setting.iter().filter(|m| m.step == step) {
             match &m.value {
                 Some(value) => session.set_control(m.control, value.clone()),

@@ -50,9 +50,9 @@ pub(crate) fn always_a_gap(display: &WatchedDisplay<'_>) -> Finding {
 /// Whether a text contains a word.
 pub(crate) fn contains_word(text: &str, word: &str) -> bool {
     let part = |c: char| c.is_alphanumeric() || c == '_' || c == '$';
-    text.match_indices(word).any(|(at, _)| {
-        let before = text.get(..at).and_then(|t| t.chars().next_back());
-        let after = text.get(at + word.len()..).and_then(|t| t.chars().next());
+    text.match_indices(word).any(|(start, _)| {
+        let before = text.get(..start).and_then(|t| t.chars().next_back());
+        let after = text.get(start + word.len()..).and_then(|t| t.chars().next());
         !before.is_some_and(part) && !after.is_some_and(part)
     })
 }

@@ -54,11 +54,11 @@ pub(crate) fn check_beginning(observed: &ObservedLab<'_>, findings: &mut Vec<Fin
         let column =
             || observed.records.iter().flat_map(|r| &r.rows).filter_map(|row| row.get(1 + traces + i));
         let Some(first_cell) = column().next().filter(|c| matches!(c, Cell::Number(_))) else { continue };
-        let at = access.first % ready.model.nq.max(1);
+        let coordinate = access.first % ready.model.nq.max(1);
         if !column().all(|c| same(c, first_cell)) {
             continue;
         }
-        let Some((from, to, done)) = moves(observed, at) else { continue };
+        let Some((from, to, done)) = moves(observed, coordinate) else { continue };
         let [first_cell, from, to] = [first_cell.number(), from, to].map(|x| digits(x, 4));
         findings.push(
             Finding::warning(
@@ -70,7 +70,7 @@ pub(crate) fn check_beginning(observed: &ObservedLab<'_>, findings: &mut Vec<Fin
                 ),
             )
             .why(format!(
-                "it is {first_cell} in every run, but {done} `data.qpos[{at}]` goes from {from} to {to}"
+                "it is {first_cell} in every run, but {done} `data.qpos[{coordinate}]` goes from {from} to {to}"
             ))
             .help(format!(
                 "read `data.qpos` for the current value: `model.{}` holds the initial one",
@@ -89,7 +89,7 @@ fn mentions_start(label: &str) -> bool {
 }
 
 /// The first run in which a coordinate moves: the initial and final value, and the action.
-fn moves(observed: &ObservedLab<'_>, at: usize) -> Option<(f64, f64, String)> {
+fn moves(observed: &ObservedLab<'_>, coordinate: usize) -> Option<(f64, f64, String)> {
     single_moves(observed.bench.ready.lab).into_iter().find_map(|(done, description)| {
         let mut session = observed.bench.start();
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
@@ -101,7 +101,7 @@ fn moves(observed: &ObservedLab<'_>, at: usize) -> Option<(f64, f64, String)> {
                 Some(Move { control, value: None, .. }) if step == 5 => session.press(*control),
                 _ => {}
             }
-            let x = session.world.data.fields().qpos.get(at).copied().unwrap_or(f64::NAN);
+            let x = session.world.data.fields().qpos.get(coordinate).copied().unwrap_or(f64::NAN);
             (low, high) = (low.min(x), high.max(x));
             ControlFlow::Continue(())
         });

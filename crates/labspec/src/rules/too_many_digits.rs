@@ -53,8 +53,8 @@ pub(crate) fn check_surplus_digits(observed: &mut ObservedLab<'_>, findings: &mu
     for (i, readout) in ready.lab.readouts.iter().enumerate() {
         let last = 10f64.powi(-(readout.digits() as i32));
         let differs = |(a, b): &(&Vec<Cell>, &Vec<Cell>)| {
-            let at = |row: &Vec<Cell>| row.get(first + i).map_or(f64::NAN, Cell::number);
-            (at(a) - at(b)).abs() / last
+            let number_in = |row: &Vec<Cell>| row.get(first + i).map_or(f64::NAN, Cell::number);
+            (number_in(a) - number_in(b)).abs() / last
         };
         let mut differences: Vec<f64> = nominal.iter().zip(&fine).map(|pair| differs(&pair)).collect();
         if differences.iter().any(|x| !x.is_finite()) {

@@ -25,11 +25,11 @@ pub(super) const CHECK: Check = Check::Lab(check_lab);
 fn check_lab(lab: &Lab, findings: &mut Vec<Finding>) {
     for (_, code) in lab.code() {
         let (mut quoted, mut found) = (None, Vec::new());
-        for (at, c) in code.value.char_indices() {
+        for (offset, c) in code.value.char_indices() {
             match (quoted, c) {
                 (None, '\'' | '"' | '`') => quoted = Some(c),
                 (Some(open), _) if open == c => quoted = None,
-                (None, _) if is_typographic(c) => found.push(at..at + c.len_utf8()),
+                (None, _) if is_typographic(c) => found.push(offset..offset + c.len_utf8()),
                 _ => {}
             }
         }

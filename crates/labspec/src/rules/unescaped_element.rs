@@ -42,17 +42,17 @@ fn model_tags(html: &str) -> Vec<(Range<usize>, String)> {
     let all: Vec<HtmlTag> = tags(html).collect();
     // A form with options is HTML.
     let form = all.iter().any(|tag| tag.name == "select");
-    let of_models = all.into_iter().filter_map(|HtmlTag { at, name, closing, .. }| {
-        let name_end = at.start + 1 + usize::from(closing) + name.len();
+    let of_models = all.into_iter().filter_map(|HtmlTag { span, name, closing, .. }| {
+        let name_end = span.start + 1 + usize::from(closing) + name.len();
         // Names of model elements are in lower case. A name at the end of the text may be incomplete.
-        let small = html.get(at.start..name_end).is_some_and(|text| text.ends_with(&name));
-        if !small || at.end == name_end || !is_of_models(&name) || form && name == "option" {
+        let small = html.get(span.start..name_end).is_some_and(|text| text.ends_with(&name));
+        if !small || span.end == name_end || !is_of_models(&name) || form && name == "option" {
             return None;
         }
         // Attributes are short. A `<` before the `>` means that this tag has no attributes.
-        let attributes = html.get(name_end..at.end).unwrap_or("");
-        let end = if attributes.contains('<') || !attributes.ends_with('>') { name_end } else { at.end };
-        Some((at.start..end, name))
+        let attributes = html.get(name_end..span.end).unwrap_or("");
+        let end = if attributes.contains('<') || !attributes.ends_with('>') { name_end } else { span.end };
+        Some((span.start..end, name))
     });
     of_models.collect()
 }

@@ -8,7 +8,7 @@ pub(super) fn plain(html: &str) -> String {
     let mut out = String::new();
     for token in tokens(html) {
         match token {
-            HtmlToken::Text(at) => out.push_str(html.get(at).unwrap_or("")),
+            HtmlToken::Text(span) => out.push_str(html.get(span).unwrap_or("")),
             HtmlToken::Decoded(text, _) => out.push_str(&text),
             HtmlToken::Tag(_) => out.push(' '),
         }
@@ -44,7 +44,7 @@ pub(super) fn normalized_words(html: &str) -> String {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct TextNumber {
     /// The byte range in the text.
-    pub(super) at: Range<usize>,
+    pub(super) span: Range<usize>,
     pub(super) value: f64,
     /// The number of digits after the decimal point.
     pub(super) decimals: usize,
@@ -55,29 +55,29 @@ pub(super) struct TextNumber {
 /// The numbers of a text of HTML, without powers of ten, indices and exponents.
 pub(super) fn numbers(html: &str) -> Vec<TextNumber> {
     let texts = tokens(html).into_iter().filter_map(|token| match token {
-        HtmlToken::Text(at) => Some(at),
+        HtmlToken::Text(span) => Some(span),
         HtmlToken::Decoded(..) | HtmlToken::Tag(_) => None,
     });
     let length_of = |text: &str| text.find(|c: char| !c.is_ascii_digit()).unwrap_or(text.len());
     let mut all = Vec::new();
-    for Range { start: mut at, end } in texts {
-        while let Some(rest) = html.get(at..end) {
+    for Range { start: mut offset, end } in texts {
+        while let Some(rest) = html.get(offset..end) {
             let Some(from) = rest.find(|c: char| c.is_ascii_digit()) else { break };
-            at += from;
-            let tail = html.get(at..end).unwrap_or("");
+            offset += from;
+            let tail = html.get(offset..end).unwrap_or("");
             let whole = length_of(tail);
             let part = tail.get(whole..).and_then(|tail| tail.strip_prefix('.')).map_or(0, length_of);
             let length = whole + if part > 0 { part + 1 } else { 0 };
-            all.extend(number(html, at..at + length, part));
-            at += length;
+            all.extend(number(html, offset..offset + length, part));
+            offset += length;
         }
     }
     all
 }
 
-fn number(html: &str, at: Range<usize>, decimals: usize) -> Option<TextNumber> {
-    let (before, after) = (html.get(..at.start)?, html.get(at.end..)?);
-    let digits = html.get(at.clone())?;
+fn number(html: &str, span: Range<usize>, decimals: usize) -> Option<TextNumber> {
+    let (before, after) = (html.get(..span.start)?, html.get(span.end..)?);
+    let digits = html.get(span.clone())?;
     let negative = before.ends_with(['-', '−']);
     let outer = before.trim_end_matches(['-', '−']);
     // An exponent, an index, or a part of a name.
@@ -94,7 +94,7 @@ fn number(html: &str, at: Range<usize>, decimals: usize) -> Option<TextNumber> {
     let sign = negative && !outer.trim_end().ends_with(|c: char| c.is_alphanumeric() || ")}".contains(c));
     let value: f64 = digits.parse().ok()?;
     let significant = digits.bytes().filter(u8::is_ascii_digit).skip_while(|b| *b == b'0').count();
-    Some(TextNumber { at, value: if sign { -value } else { value }, decimals, significant })
+    Some(TextNumber { span, value: if sign { -value } else { value }, decimals, significant })
 }
 
 #[cfg(test)]

@@ -48,8 +48,8 @@ pub fn breakdowns_of(session: &Session<'_>) -> Vec<Breakdown> {
 fn explain_warning(session: &Session<'_>, warning: Warning, stat: &WarningStat) -> Breakdown {
     let model = &session.world.model;
     let joint = |adr: &[i32], width| joint_of(model, stat.lastinfo, adr, width);
-    let at = format!("at t = {} s", time(stat.first_time));
-    let no_number = |what: String| format!("{what} is not a number or exceeds 1e10 {at}");
+    let moment = format!("at t = {} s", time(stat.first_time));
+    let no_number = |what: String| format!("{what} is not a number or exceeds 1e10 {moment}");
     let (rule, what, why, advice) = match warning {
         Warning::BadQpos => (
             rules::SIMULATION_DIVERGES,
@@ -78,7 +78,7 @@ fn explain_warning(session: &Session<'_>, warning: Warning, stat: &WarningStat) 
         Warning::Inertia => (
             rules::ENGINE_WARNING,
             format!(
-                "the parts that {} moves have no positive inertia {at}",
+                "the parts that {} moves have no positive inertia {moment}",
                 joint(&model.jnt_dofadr, joint::nv)
             ),
             "a push then gives no meaningful acceleration: things do not move, move backwards or vanish",
@@ -88,13 +88,13 @@ fn explain_warning(session: &Session<'_>, warning: Warning, stat: &WarningStat) 
         ),
         Warning::ContactFull => (
             rules::ENGINE_WARNING,
-            format!("there are more contacts than the {} that the engine keeps {at}", stat.lastinfo),
+            format!("there are more contacts than the {} that the engine keeps {moment}", stat.lastinfo),
             "the dropped contacts do not push: bodies silently sink into each other",
             BreakdownAdvice::only("let fewer bodies touch, or move them apart at the start"),
         ),
         Warning::ConstraintFull => (
             rules::ENGINE_WARNING,
-            format!("there are more contacts, limits and other constraints than the engine keeps {at}"),
+            format!("there are more contacts, limits and other constraints than the engine keeps {moment}"),
             "the dropped constraints do not act: bodies silently sink into each other, and joints pass their limits",
             BreakdownAdvice::only("let fewer bodies touch, or move them apart at the start"),
         ),

@@ -98,7 +98,7 @@ impl Table {
 
     /// The points of a column over time.
     pub fn series(&self, column: usize) -> Vec<(f64, f64)> {
-        let at = |row: &[Cell], i: usize| row.get(i).map_or(f64::NAN, Cell::number);
-        self.rows.iter().map(|row| (at(row, 0), at(row, column))).collect()
+        let number_at = |row: &[Cell], i: usize| row.get(i).map_or(f64::NAN, Cell::number);
+        self.rows.iter().map(|row| (number_at(row, 0), number_at(row, column))).collect()
     }
 }

@@ -18,7 +18,7 @@ impl Piece {
     /// Origin bytes of a range inside this piece.
     fn part(&self, range: Range<usize>) -> Range<usize> {
         if self.verbatim {
-            let shift = |at: usize| self.origin.start + at.saturating_sub(self.derived.start);
+            let shift = |offset: usize| self.origin.start + offset.saturating_sub(self.derived.start);
             shift(range.start)..shift(range.end)
         } else {
             self.origin.clone()
@@ -50,8 +50,8 @@ impl SourceMap {
     }
 
     /// The map of an empty text with a position.
-    pub fn point(at: usize) -> SourceMap {
-        SourceMap { pieces: vec![Piece { derived: 0..0, origin: at..at, verbatim: true }] }
+    pub fn point(offset: usize) -> SourceMap {
+        SourceMap { pieces: vec![Piece { derived: 0..0, origin: offset..offset, verbatim: true }] }
     }
 
     /// Length of the derived text.
@@ -95,8 +95,8 @@ impl SourceMap {
         let start = range.start.min(self.derived_len());
         let end = range.end.min(self.derived_len()).max(start);
         if start == end {
-            let at = self.origin_of(start);
-            return at..at;
+            let offset = self.origin_of(start);
+            return offset..offset;
         }
         let first = self.piece_at(start).map_or(0, |p| p.part(start..start + 1).start);
         let last = self.piece_at(end - 1).map_or(first, |p| p.part(end - 1..end).end);
@@ -104,15 +104,15 @@ impl SourceMap {
     }
 
     /// The origin of a position between two derived bytes: the start of the byte after it, or the end.
-    fn origin_of(&self, at: usize) -> usize {
-        match self.piece_at(at) {
-            Some(piece) => piece.part(at..at).start,
+    fn origin_of(&self, offset: usize) -> usize {
+        match self.piece_at(offset) {
+            Some(piece) => piece.part(offset..offset).start,
             None => self.pieces.last().map_or(0, |p| p.origin.end),
         }
     }
 
-    fn piece_at(&self, at: usize) -> Option<&Piece> {
-        let i = self.pieces.partition_point(|p| p.derived.end <= at);
+    fn piece_at(&self, offset: usize) -> Option<&Piece> {
+        let i = self.pieces.partition_point(|p| p.derived.end <= offset);
         self.pieces.get(i)
     }
 
@@ -135,28 +135,28 @@ impl SourceMap {
         let mut whole = SourceMap::default();
         for piece in &self.pieces {
             if piece.derived.is_empty() {
-                let at = below.origin_of(piece.origin.start);
-                return SourceMap::point(at);
+                let offset = below.origin_of(piece.origin.start);
+                return SourceMap::point(offset);
             }
             if !piece.verbatim {
                 whole.push_whole(piece.derived.len(), below.span(piece.origin.clone()));
                 continue;
             }
             // A verbatim piece may cross several pieces below: split it at their boundaries.
-            let mut at = piece.origin.start;
-            while at < piece.origin.end {
-                let Some(under) = below.piece_at(at) else {
-                    whole.push_whole(piece.origin.end - at, below.span(at..piece.origin.end));
+            let mut offset = piece.origin.start;
+            while offset < piece.origin.end {
+                let Some(under) = below.piece_at(offset) else {
+                    whole.push_whole(piece.origin.end - offset, below.span(offset..piece.origin.end));
                     break;
                 };
                 let end = under.derived.end.min(piece.origin.end);
-                let origin = under.part(at..end);
+                let origin = under.part(offset..end);
                 if under.verbatim {
                     whole.push_verbatim(origin);
                 } else {
-                    whole.push_whole(end - at, origin);
+                    whole.push_whole(end - offset, origin);
                 }
-                at = end;
+                offset = end;
             }
         }
         whole
@@ -201,15 +201,15 @@ mod tests {
 
     /// A map with pieces of the given (derived length, gap before, origin length) and its derived length.
     fn build(parts: &[(usize, usize, usize)]) -> SourceMap {
-        let (mut map, mut at) = (SourceMap::default(), 0);
+        let (mut map, mut offset) = (SourceMap::default(), 0);
         for &(len, gap, origin) in parts {
-            let stretch = at + gap..at + gap + origin;
+            let stretch = offset + gap..offset + gap + origin;
             if len == origin {
                 map.push_verbatim(stretch)
             } else {
                 map.push_whole(len, stretch)
             }
-            at += gap + origin;
+            offset += gap + origin;
         }
         map
     }

@@ -34,7 +34,7 @@ pub enum BadText {
     /// A byte that is not UTF-8, and the offset of its replacement in the text.
     Byte {
         /// Offset.
-        at: usize,
+        offset: usize,
         /// The byte.
         byte: u8,
     },
@@ -73,10 +73,10 @@ impl SourceFile {
             _ => match std::str::from_utf8(bytes) {
                 Ok(text) => (SourceFile::new(path, text), None),
                 Err(e) => {
-                    let at = e.valid_up_to();
-                    let byte = bytes.get(at).copied().unwrap_or(0);
+                    let offset = e.valid_up_to();
+                    let byte = bytes.get(offset).copied().unwrap_or(0);
                     let text = String::from_utf8_lossy(bytes).into_owned();
-                    (SourceFile::new(path, text), Some(BadText::Byte { at, byte }))
+                    (SourceFile::new(path, text), Some(BadText::Byte { offset, byte }))
                 }
             },
         }

@@ -35,12 +35,12 @@ type CodesAndReason = (Vec<(String, Range<usize>)>, String);
 fn read_codes(text: &str, inside: Range<usize>) -> Option<CodesAndReason> {
     let rest = text.get(inside.clone())?;
     let (codes, why) = rest.split_once(':').unwrap_or((rest, ""));
-    let mut at = inside.end - rest.len();
+    let mut offset = inside.end - rest.len();
     let mut found = Vec::new();
     for part in codes.split(',') {
-        let start = at + part.len() - part.trim_start().len();
+        let start = offset + part.len() - part.trim_start().len();
         found.push((part.trim().to_string(), start..start + part.trim().len()));
-        at += part.len() + 1;
+        offset += part.len() + 1;
     }
     Some((found, why.trim().to_string()))
 }
@@ -71,8 +71,9 @@ mod tests {
         let lesson = read_lesson(SourceFile::new("a.md", text));
         let all = lesson.allowances();
         assert_eq!(all.len(), 2, "{all:#?}");
-        let codes =
-            |i: usize| all[i].codes.iter().map(|(code, at)| (code.as_str(), lesson.file.slice(at.clone())));
+        let codes = |i: usize| {
+            all[i].codes.iter().map(|(code, span)| (code.as_str(), lesson.file.slice(span.clone())))
+        };
         assert_eq!(codes(0).collect::<Vec<_>>(), [("a", "a"), ("b", "b")]);
         assert_eq!((all[0].why.as_str(), lesson.file.slice(all[0].over.clone())), ("read\naloud", "this\n"));
         assert_eq!(codes(1).collect::<Vec<_>>(), [("c", "c")]);

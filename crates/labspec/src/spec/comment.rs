@@ -49,7 +49,7 @@ pub struct Definition {
 /// empty line.
 pub(super) fn comments(file: &SourceFile, scan: &Scan, word: &str) -> Vec<Comment> {
     let mut paragraph = 0..0;
-    let all = ours(file.text(), scan, word).into_iter();
+    let all = labspec_comments(file.text(), scan, word).into_iter();
     all.map(|(span, inside)| Comment { over: following(file, scan, span.end, &mut paragraph), span, inside })
         .collect()
 }
@@ -62,7 +62,7 @@ fn following(file: &SourceFile, scan: &Scan, from: usize, paragraph: &mut Range<
     let start = from + rest.len() - text.len();
     let blocks = &scan.blocks;
     let last = blocks.partition_point(|b| b.span.start <= start).checked_sub(1);
-    if let Some(block) = last.and_then(|at| blocks.get(at)).filter(|b| b.span.contains(&start)) {
+    if let Some(block) = last.and_then(|index| blocks.get(index)).filter(|b| b.span.contains(&start)) {
         return start..block.span.end;
     }
     if !paragraph.contains(&start) {
@@ -74,12 +74,15 @@ fn following(file: &SourceFile, scan: &Scan, from: usize, paragraph: &mut Range<
 }
 
 /// The bytes of every labspec comment with this keyword, and of the text after the keyword.
-pub(super) fn ours(text: &str, scan: &Scan, word: &str) -> Vec<(Range<usize>, Range<usize>)> {
+pub(super) fn labspec_comments(text: &str, scan: &Scan, word: &str) -> Vec<(Range<usize>, Range<usize>)> {
     let mut all = Vec::new();
     for html in &scan.html {
         let mut from = html.start;
-        while let Some(start) = text.get(from..html.end).and_then(|t| t.find(OPENS)).map(|at| from + at) {
-            let Some(end) = text.get(start..html.end).and_then(|t| t.find(CLOSES)).map(|at| start + at)
+        while let Some(start) =
+            text.get(from..html.end).and_then(|t| t.find(OPENS)).map(|offset| from + offset)
+        {
+            let Some(end) =
+                text.get(start..html.end).and_then(|t| t.find(CLOSES)).map(|offset| start + offset)
             else {
                 break;
             };
@@ -96,13 +99,13 @@ pub(crate) fn claims_in_comments(text: &str, scan: &Scan) -> Vec<(Range<usize>, 
         let open = text.get(inside.clone()).and_then(|t| t.find('{')).unwrap_or(0);
         inside.start + open..inside.end
     };
-    let all = [CLAIM, DEFINITION].into_iter().flat_map(|word| ours(text, scan, word));
+    let all = [CLAIM, DEFINITION].into_iter().flat_map(|word| labspec_comments(text, scan, word));
     all.map(|(comment, inside)| (comment, json(inside))).collect()
 }
 
 /// The bytes of the claim in a comment that contains a byte of the text.
 pub(super) fn claim_at(text: &str, scan: &Scan, byte: usize) -> Option<Range<usize>> {
-    let mut all = ours(text, scan, CLAIM).into_iter().map(|(_, inside)| inside);
+    let mut all = labspec_comments(text, scan, CLAIM).into_iter().map(|(_, inside)| inside);
     all.find(|inside| (inside.start..=inside.end).contains(&byte))
 }
 

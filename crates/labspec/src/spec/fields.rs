@@ -208,7 +208,7 @@ impl<'n, 'f> Fields<'n, 'f> {
             }
             // Only the first ones get suggestions: an object can have thousands of unknown keys.
             let candidates = || self.keys.iter().take(if reported < 20 { usize::MAX } else { 0 });
-            let meant = self.meant.iter().find(|(right, at)| *at == i && self.key(right).is_some());
+            let meant = self.meant.iter().find(|(right, index)| *index == i && self.key(right).is_some());
             let there =
                 |right: &str| self.members.iter().any(|m| m.key.value == right) || misspelt.contains(&right);
             let fitting =

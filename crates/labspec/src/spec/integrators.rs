@@ -48,36 +48,36 @@ pub(super) fn read_comparison(f: &mut Fields<'_, '_>) -> Comparison {
 
 /// Adds to a lab what compares its integrators: the select, the plot of the energy, and the runs of its claims.
 pub(super) fn add_comparison(lab: Lab, mut comparison: Comparison) -> Lab {
-    let at = comparison.span.clone();
+    let span = comparison.span.clone();
     comparison.control = lab.controls.len();
     let controls = lab.controls.into_iter().chain([integrator_select(&comparison)]).collect();
-    let energy = energy_plot(&at, lab.stop_at.clone());
+    let energy = energy_plot(&span, lab.stop_at.clone());
     let plots = [energy].into_iter().chain(lab.plots).collect();
     let verify = lab.verify.map(|verify| with_runs(verify, &comparison));
     Lab { controls, plots, verify, comparison: Some(comparison), ..lab }
 }
 
 /// A text that the lesson does not contain, at a place of the lesson.
-fn added(value: &str, at: &Range<usize>) -> Text {
-    Text { value: value.to_string(), map: SourceMap::whole(value.len(), at.clone()) }
+fn added(value: &str, span: &Range<usize>) -> Text {
+    Text { value: value.to_string(), map: SourceMap::whole(value.len(), span.clone()) }
 }
 
 /// The select that sets the integrator, and the timestep, after `setup` and the other controls. Its values are names, so
 /// that messages and runs name them.
 fn integrator_select(comparison: &Comparison) -> Control {
-    let at = &comparison.span;
-    let name = |name: &&'static str| added(name, at);
-    let first = comparison.integrators.first().map_or_else(|| added("", at), name);
+    let span = &comparison.span;
+    let name = |name: &&'static str| added(name, span);
+    let first = comparison.integrators.first().map_or_else(|| added("", span), name);
     let choice = |text: Text| Choice { value: Scalar::Text(text.clone()), text };
     Control {
-        span: at.clone(),
-        label: added(INTEGRATOR, at),
+        span: span.clone(),
+        label: added(INTEGRATOR, span),
         kind: ControlKind::Select {
             options: comparison.integrators.iter().map(name).map(choice).collect(),
             value: Scalar::Text(first),
             action: Action {
                 set: None,
-                apply: Some(added(&statements(comparison.timestep.as_ref()), at)),
+                apply: Some(added(&statements(comparison.timestep.as_ref()), span)),
                 param: None,
                 init: true,
                 reset: true,
@@ -102,10 +102,10 @@ fn statements(timestep: Option<&Number>) -> String {
     code
 }
 
-fn energy_plot(at: &Range<usize>, window: Option<Number>) -> Plot {
+fn energy_plot(span: &Range<usize>, window: Option<Number>) -> Plot {
     Plot {
-        span: at.clone(),
-        ylabel: Some(added(ENERGY_DRIFT, at)),
+        span: span.clone(),
+        ylabel: Some(added(ENERGY_DRIFT, span)),
         xlabel: None,
         window,
         ymin: None,
@@ -113,9 +113,9 @@ fn energy_plot(at: &Range<usize>, window: Option<Number>) -> Plot {
         height: None,
         ref_lines: Vec::new(),
         traces: vec![Trace {
-            span: at.clone(),
-            label: added(ENERGY_DRIFT, at),
-            expr: added(DRIFT, at),
+            span: span.clone(),
+            label: added(ENERGY_DRIFT, span),
+            expr: added(DRIFT, span),
             dash: false,
         }],
     }
@@ -127,12 +127,13 @@ fn with_runs(verify: Verify, comparison: &Comparison) -> Verify {
     if verify.lab.is_some() {
         return verify;
     }
-    let setting = |name: &str, at: &Range<usize>| (added(INTEGRATOR, at), Scalar::Text(added(name, at)));
+    let setting =
+        |name: &str, span: &Range<usize>| (added(INTEGRATOR, span), Scalar::Text(added(name, span)));
     if verify.runs.is_empty() && verify.uses.is_none() {
-        let at = &comparison.span;
+        let span = &comparison.span;
         let run = |name: &&'static str| Run {
-            name: added(name, at),
-            set: vec![setting(name, at)],
+            name: added(name, span),
+            set: vec![setting(name, span)],
             ..Run::named(name)
         };
         return Verify { runs: comparison.integrators.iter().map(run).collect(), ..verify };
@@ -299,9 +300,9 @@ mod tests {
     fn the_editor_offers_the_keys_and_the_names_of_the_kind() {
         let offered = |json: &str| -> Vec<String> {
             let text = format!("```lab integrators\n{json}\n```\n");
-            let at = text.find('|').unwrap();
+            let offset = text.find('|').unwrap();
             let file = SourceFile::new("t.md", text.replace('|', ""));
-            let all = format::completions_in(&file, at, &|_| Vec::new());
+            let all = format::completions_in(&file, offset, &|_| Vec::new());
             all.into_iter().map(|c| c.text.into_owned()).collect()
         };
         assert_eq!(offered(r#"{"model": "spring", "integ|"}"#), ["integrators"]);

@@ -60,21 +60,21 @@ pub(super) fn nature(node: &Node) -> Nature {
 /// Whether most keys of an object are declared, and one of them is similar to an identifying key.
 fn nearly(node: &Node, object: &Object, telling: &[&'static str]) -> bool {
     let members = node.members();
-    let (mut ours, mut near) = (0, false);
+    let (mut matching, mut near) = (0, false);
     for member in members.iter().take(100) {
         let key = member.key.as_str();
         if object.key(key).is_some() {
-            ours += 1;
+            matching += 1;
         } else if !OTHER_WORDS.contains(&key.to_ascii_lowercase().as_str())
             && let Some(meant) = nearest(key, telling.iter().copied())
             && (object.key(meant).is_some_and(|k| fits(&k.ty, &member.value.json))
                 || matches!(member.value.json, Json::Object(_)))
         {
-            ours += 1;
+            matching += 1;
             near = true;
         }
     }
-    near && 2 * ours > members.len()
+    near && 2 * matching > members.len()
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Reads the claims and the definitions in comments.
 
-use super::comment::{CLAIM, Comment, DEFINITION, Definition, Remark, comments, ours};
+use super::comment::{CLAIM, Comment, DEFINITION, Definition, Remark, comments, labspec_comments};
 use super::lesson::Lesson;
 use super::problem::{Mistake, Problem};
 use super::read_lab::{is_name, read_definition, read_verify};
@@ -12,7 +12,7 @@ use crate::source::SourceMap;
 pub(super) fn read_definitions(scan: &Scan, lesson: &mut Lesson) -> Vec<Definition> {
     let file = lesson.file.clone();
     let mut all: Vec<Definition> = Vec::new();
-    for (span, inside) in ours(file.text(), scan, DEFINITION).into_iter().take(MAX_BLOCKS) {
+    for (span, inside) in labspec_comments(file.text(), scan, DEFINITION).into_iter().take(MAX_BLOCKS) {
         let text = file.slice(inside.clone());
         let rest = text.trim_start();
         let name: String = rest.chars().take_while(|c| is_name(*c)).collect();

@@ -36,13 +36,13 @@ pub fn read_lesson_in(file: SourceFile, place: Option<(&Path, &Sources)>) -> Les
     lesson
 }
 
-/// Reads a lab of another lesson. All ranges in it are `at`, the range of the reference.
+/// Reads a lab of another lesson. All ranges in it are `reference`, the range of the reference.
 ///
 /// # Errors
 /// The reason that there is no such lab.
-pub fn read_other(file: SourceFile, address: &LabAddress, at: Range<usize>) -> Result<Lab, String> {
+pub fn read_other(file: SourceFile, address: &LabAddress, reference: Range<usize>) -> Result<Lab, String> {
     let path = file.path().to_string();
-    let lesson = read_at(file, Some(at), None);
+    let lesson = read_at(file, Some(reference), None);
     match lesson.lab(address) {
         Some(_) if lesson.blocks_are_broken() => Err(format!("{path} has JSON that a page cannot read")),
         Some(lab) => Ok(lab.clone()),
@@ -83,8 +83,8 @@ fn byte_order_mark(text: &str) -> usize {
     if text.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 }
 }
 
-/// Reads a lesson. If `at` is given, all ranges in its JSON are `at`.
-fn read_at(file: SourceFile, at: Option<Range<usize>>, place: Option<(PathBuf, Sources)>) -> Lesson {
+/// Reads a lesson. If `reference` is given, all ranges in its JSON are `reference`.
+fn read_at(file: SourceFile, reference: Option<Range<usize>>, place: Option<(PathBuf, Sources)>) -> Lesson {
     let mut lesson = Lesson {
         conventions: Conventions::default(),
         file,
@@ -106,14 +106,14 @@ fn read_at(file: SourceFile, at: Option<Range<usize>>, place: Option<(PathBuf, S
     if lesson.file.text().len() as u64 > MAX_FILE {
         lesson.problems.push(Mistake::TooLarge.at(0..0));
     } else if kind_of(Path::new(&**lesson.file.path())) == FileKind::Json {
-        json_file(&mut lesson, at);
+        json_file(&mut lesson, reference);
     } else {
-        markdown_file(&mut lesson, at);
+        markdown_file(&mut lesson, reference);
     }
     lesson
 }
 
-fn markdown_file(lesson: &mut Lesson, at: Option<Range<usize>>) {
+fn markdown_file(lesson: &mut Lesson, reference: Option<Range<usize>>) {
     let file = lesson.file.clone();
     let (mut scan, text) = (markdown::scan(&file), file.text());
     lesson.problems.extend(scan.problems.drain(..).map(Problem::Fence));
@@ -123,7 +123,7 @@ fn markdown_file(lesson: &mut Lesson, at: Option<Range<usize>>) {
         }
         match &block.kind {
             BlockKind::Lab(kind) => {
-                let node = body(block, &at, &scan, lesson);
+                let node = body(block, &reference, &scan, lesson);
                 if let Some(node) = &node
                     && nature(node) == Nature::Quiz
                 {
@@ -140,7 +140,7 @@ fn markdown_file(lesson: &mut Lesson, at: Option<Range<usize>>) {
                 push_lab(lesson, block.span.clone(), lab);
             }
             BlockKind::Widget(widget) => {
-                let node = body(block, &at, &scan, lesson);
+                let node = body(block, &reference, &scan, lesson);
                 let model = node.as_ref().and_then(|n| match &n.get("model")?.json {
                     Json::Text(text) => Some(text.clone()),
                     _ => None,
@@ -148,7 +148,7 @@ fn markdown_file(lesson: &mut Lesson, at: Option<Range<usize>>) {
                 lesson.widgets.push(Widget { name: widget.clone(), span: block.span.clone(), model });
             }
             BlockKind::Quiz => {
-                let Some(node) = body(block, &at, &scan, lesson) else { continue };
+                let Some(node) = body(block, &reference, &scan, lesson) else { continue };
                 if nature(&node) == Nature::Lab {
                     let mistake = Mistake::HoldsLab(head(text, block, LabKind::Simulation.fence()));
                     lesson.problems.push(mistake.at(block.info.clone()));
@@ -172,13 +172,13 @@ fn head(text: &str, block: &Block, kind: &str) -> String {
 }
 
 /// The JSON of a block.
-fn body(block: &Block, at: &Option<Range<usize>>, scan: &Scan, lesson: &mut Lesson) -> Option<Node> {
+fn body(block: &Block, reference: &Option<Range<usize>>, scan: &Scan, lesson: &mut Lesson) -> Option<Node> {
     if block.body.value.trim().is_empty() {
         lesson.broken.push(block.span.clone());
         lesson.problems.push(Mistake::EmptyFence.at(block.info.clone()));
         return None;
     }
-    let map = at.as_ref().map(|at| SourceMap::whole(block.body.value.len(), at.clone()));
+    let map = reference.as_ref().map(|reference| SourceMap::whole(block.body.value.len(), reference.clone()));
     let map = map.as_ref().unwrap_or(&block.body.map);
     read_json(&block.body.value, map, block.span.clone(), (scan, false), lesson)
 }
@@ -190,11 +190,12 @@ fn push_lab(lesson: &mut Lesson, span: Range<usize>, lab: Option<Lab>) {
 }
 
 /// A lab, a quiz, or a list of them. Labs and quizzes are distinguished by their keys.
-fn json_file(lesson: &mut Lesson, at: Option<Range<usize>>) {
+fn json_file(lesson: &mut Lesson, reference: Option<Range<usize>>) {
     let text = lesson.file.text();
     let start = byte_order_mark(text);
     let (length, whole) = (text.len() - start, 0..text.len());
-    let map = at.map_or(SourceMap::verbatim(start..text.len()), |at| SourceMap::whole(length, at));
+    let map = reference
+        .map_or(SourceMap::verbatim(start..text.len()), |reference| SourceMap::whole(length, reference));
     let text = text.get(start..).unwrap_or("").to_string();
     let Some(node) = read_json(&text, &map, whole, (&Scan::default(), false), lesson) else { return };
     match &node.json {

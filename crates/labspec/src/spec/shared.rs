@@ -16,8 +16,8 @@ impl Lesson {
     pub fn whole<'a>(&'a self, verify: &'a Verify) -> &'a Verify {
         match verify.uses {
             Some(_) => {
-                let at = self.wholes.binary_search_by_key(&verify.span.start, |w| w.span.start);
-                at.ok().and_then(|at| self.wholes.get(at)).unwrap_or(verify)
+                let index = self.wholes.binary_search_by_key(&verify.span.start, |w| w.span.start);
+                index.ok().and_then(|index| self.wholes.get(index)).unwrap_or(verify)
             }
             None => verify,
         }

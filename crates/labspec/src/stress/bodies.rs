@@ -122,7 +122,7 @@ pub(super) fn may_meet(m: &Model, g: usize, p: usize) -> bool {
 
 /// The centre of a geom in the frame of another one, m.
 pub(super) fn centre_in_frame(xpos: &[f64], xmat: &[f64], g: usize, p: usize) -> Option<Vec3> {
-    let at = |g: usize| rows::<3>(xpos).get(g).copied();
+    let centre_of = |g: usize| rows::<3>(xpos).get(g).copied();
     let axes = rows::<9>(xmat).get(p)?;
-    Some(mat_t_mul_vec(axes, sub(at(g)?, at(p)?)))
+    Some(mat_t_mul_vec(axes, sub(centre_of(g)?, centre_of(p)?)))
 }

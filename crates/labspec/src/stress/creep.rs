@@ -110,7 +110,8 @@ fn bodies(m: &Model, half: &[CreepSample]) -> Vec<Fault> {
     let (Some(first), Some(last)) = (half.first(), half.last()) else { return Vec::new() };
     let time = last.time - first.time;
     let mut list = Vec::new();
-    let place = |i: usize, b: usize| half.get(i).and_then(|at| at.places.get(b)).copied().unwrap_or_default();
+    let place =
+        |i: usize, b: usize| half.get(i).and_then(|sample| sample.places.get(b)).copied().unwrap_or_default();
     let distance = |b: usize, from: usize, to: usize| norm(sub(place(to, b), place(from, b)));
     let size = |b: usize| sizes(m, b);
     let end = half.len() - 1;
@@ -121,7 +122,7 @@ fn bodies(m: &Model, half: &[CreepSample]) -> Vec<Fault> {
         return Vec::new();
     }
     for b in (1..m.nbody).filter(|b| moves(*b)) {
-        let rubs = half.iter().all(|at| at.rubs.get(b).copied().unwrap_or(false));
+        let rubs = half.iter().all(|sample| sample.rubs.get(b).copied().unwrap_or(false));
         let all = distance(b, 0, end);
         let [one, two] =
             [distance(b, 0, end / 2) / (end / 2) as f64, distance(b, end / 2, end) / (end - end / 2) as f64];
@@ -138,14 +139,15 @@ fn joints(m: &Model, half: &[CreepSample]) -> Vec<Fault> {
     let (Some(first), Some(last)) = (half.first(), half.last()) else { return Vec::new() };
     let mut list = Vec::new();
     for (i, (j, _, dof)) in with_friction(m).enumerate() {
-        let at = |moment: &CreepSample| moment.joints.get(i).copied().unwrap_or((0.0, false));
-        let travel = (at(last).0 - at(first).0).abs();
+        let joint_at = |moment: &CreepSample| moment.joints.get(i).copied().unwrap_or((0.0, false));
+        let travel = (joint_at(last).0 - joint_at(first).0).abs();
         let path: f64 =
-            half.windows(2).map(|two| two.iter().map(|x| at(x).0).fold(0.0, |a, b| b - a).abs()).sum();
+            half.windows(2).map(|two| two.iter().map(|x| joint_at(x).0).fold(0.0, |a, b| b - a).abs()).sum();
         let slide = m.jnt_type.get(j) == Some(&joint::SLIDE);
         let body = m.jnt_bodyid.get(j).map_or(0, |&b| b as usize);
         let (least, unit) = if slide { (CREEP_SPEED * sizes(m, body), "m") } else { (ANGLE, "rad") };
-        if half.iter().all(|moment| at(moment).1) && travel > least && travel >= MIN_STRAIGHTNESS * path {
+        if half.iter().all(|moment| joint_at(moment).1) && travel > least && travel >= MIN_STRAIGHTNESS * path
+        {
             list.push(creep(joint_of_dof(m, dof), first.time, travel, last.time - first.time, unit));
         }
     }
@@ -157,7 +159,8 @@ fn with_friction(m: &Model) -> impl Iterator<Item = (usize, usize, usize)> {
     let on = !m.opt.disabled(disable::FRICTIONLOSS) && !m.opt.disabled(disable::CONSTRAINT);
     (0..m.njnt).filter(move |_| on).filter_map(|j| {
         let single = matches!(m.jnt_type.get(j), Some(&(joint::HINGE | joint::SLIDE)));
-        let [qpos, dof] = [&m.jnt_qposadr, &m.jnt_dofadr].map(|list| list.get(j).map(|&at| at as usize));
+        let [qpos, dof] =
+            [&m.jnt_qposadr, &m.jnt_dofadr].map(|list| list.get(j).map(|&address| address as usize));
         let (qpos, dof) = (qpos?, dof?);
         let loss = m.dof_frictionloss.get(dof).copied().unwrap_or(0.0);
         (single && loss > 0.0).then_some((j, qpos, dof))

@@ -109,13 +109,13 @@ impl Fault {
 
     /// Whether this fault includes another one of the same bodies.
     pub(super) fn covers(&self, other: &Fault) -> bool {
-        let [mine, others] = [self, other].map(|f| {
+        let [parts, others] = [self, other].map(|f| {
             let mut both: Vec<&str> =
                 f.subject.split(" through ").flat_map(|part| part.split(" and ")).collect();
             both.sort_unstable();
             both
         });
-        let same = mine == others;
+        let same = parts == others;
         match (self.kind, other.kind) {
             (FaultKind::Tunnels, FaultKind::Tunnels | FaultKind::Penetrates) => same,
             (FaultKind::Sinks, FaultKind::Penetrates) => same,

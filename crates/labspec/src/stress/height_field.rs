@@ -70,8 +70,8 @@ fn surface(m: &Model, p: usize, place: Vec3) -> Option<f64> {
         (n > 1 && (0.0..=(n - 1) as f64).contains(&t)).then_some((cell as usize, t - cell))
     };
     let ((c, s), (r, t)) = (along(place[0], rx, ncol)?, along(place[1], ry, nrow)?);
-    let at = |r: usize, c: usize| m.hfield_data.get(first + r * ncol + c).copied();
-    let [a, b, c, d] = [at(r, c)?, at(r, c + 1)?, at(r + 1, c)?, at(r + 1, c + 1)?];
+    let sample = |r: usize, c: usize| m.hfield_data.get(first + r * ncol + c).copied();
+    let [a, b, c, d] = [sample(r, c)?, sample(r, c + 1)?, sample(r + 1, c)?, sample(r + 1, c + 1)?];
     Some(top * ((1.0 - t) * ((1.0 - s) * a + s * b) + t * ((1.0 - s) * c + s * d)))
 }
 
@@ -107,11 +107,18 @@ mod tests {
         let text = "<mujoco><asset><hfield name=\"h\" nrow=\"2\" ncol=\"3\" size=\"2 1 .5 .1\" elevation=\"0 0 1  0 .5 1\"/></asset>\
                     <worldbody><geom type=\"hfield\" hfield=\"h\"/></worldbody></mujoco>";
         let m = labspec_core::xml::compile(text).unwrap();
-        let at = |x: f64, y: f64| surface(&m, 0, [x, y, 9.0]);
+        let surface_at = |x: f64, y: f64| surface(&m, 0, [x, y, 9.0]);
         // Rows are in the order of y or reversed in the file; the result at the ends along x is the same.
-        assert_eq!((at(-2.0, 0.0), at(2.0, 0.3), at(1.0, 0.0)), (Some(0.0), Some(0.5), Some(0.3125)));
         assert_eq!(
-            (at(0.0, 1.0).unwrap() + at(0.0, -1.0).unwrap(), at(2.1, 0.0), at(0.0, -1.1)),
+            (surface_at(-2.0, 0.0), surface_at(2.0, 0.3), surface_at(1.0, 0.0)),
+            (Some(0.0), Some(0.5), Some(0.3125))
+        );
+        assert_eq!(
+            (
+                surface_at(0.0, 1.0).unwrap() + surface_at(0.0, -1.0).unwrap(),
+                surface_at(2.1, 0.0),
+                surface_at(0.0, -1.1)
+            ),
             (0.25, None, None)
         );
     }

@@ -113,8 +113,8 @@ pub(crate) fn with_tried_end(
     let (ControlKind::Slider { min, max, .. }, Some(step)) = (&control.kind, control.step()) else {
         return breakdown;
     };
-    let Some(Value::Number(at)) = action.value else { return breakdown };
-    let (key, next) = match at {
+    let Some(Value::Number(value)) = action.value else { return breakdown };
+    let (key, next) = match value {
         x if x == min.value => ("min", min.value + step),
         x if x == max.value => ("max", max.value - step),
         _ => return breakdown,

@@ -67,8 +67,8 @@ impl RunawayMonitor {
             let speeds: Vec<f64> =
                 samples.chain([self.largest[kind]]).filter(|v| FAR_FACTOR * v > *bound).collect();
             let last = speeds.len().saturating_sub(1);
-            let at = |part: usize| speeds.get(part * last / PARTS).copied().unwrap_or(f64::INFINITY);
-            last < PARTS || (0..PARTS).all(|part| at(part + 1) > MIN_GROWTH * at(part))
+            let speed_at = |part: usize| speeds.get(part * last / PARTS).copied().unwrap_or(f64::INFINITY);
+            last < PARTS || (0..PARTS).all(|part| speed_at(part + 1) > MIN_GROWTH * speed_at(part))
         };
         self.sure.or(self.found.filter(grows))
     }

@@ -61,7 +61,7 @@ struct TouchingPair {
     deep_since: Option<f64>,
     deepest: f64,
     depth: f64,
-    at: f64,
+    time: f64,
     lasted: f64,
     /// The position of the first geom at the start of the block, in the frame of the second, and its largest displacement
     /// since.
@@ -211,7 +211,7 @@ impl TouchingPair {
             deep_since: None,
             deepest: 0.0,
             depth: 0.0,
-            at: 0.0,
+            time: 0.0,
             lasted: 0.0,
             from: None,
             moved: 0.0,
@@ -224,7 +224,7 @@ impl TouchingPair {
         let depth = std::mem::take(&mut self.depth_now);
         let share = depth / self.size;
         if share > self.deepest {
-            (self.deepest, self.depth, self.at) = (share, depth, time);
+            (self.deepest, self.depth, self.time) = (share, depth, time);
         }
         if share > DEEP_FRACTION {
             let since = *self.deep_since.get_or_insert(time);
@@ -316,7 +316,7 @@ fn penetration(m: &Model, t: &TouchingPair) -> Fault {
         [g, p].iter().filter_map(|&g| solref.get(g)).fold([0.0; 2], |a, b| if b[0] > a[0] { *b } else { a });
     let mass = |g: usize| m.body_mass.get(body_of(m, g)).copied().unwrap_or(0.0);
     let ratio = (mass(g) / mass(p)).max(mass(p) / mass(g));
-    let cause = if t.at <= m.opt.timestep {
+    let cause = if t.time <= m.opt.timestep {
         "they overlap at the start".to_string()
     } else if ratio.is_finite() && ratio > 100.0 {
         format!("one is {} times as heavy as the other", crate::run::two_digits(ratio))
@@ -325,7 +325,7 @@ fn penetration(m: &Model, t: &TouchingPair) -> Fault {
     };
     Fault {
         kind: FaultKind::Penetrates,
-        time: t.at,
+        time: t.time,
         subject: format!("{} and {}", geom_name(m, g), geom_name(m, p)),
         cause,
         evidence: vec![

@@ -279,8 +279,8 @@ impl<'a> RunningAggregate<'a> {
 
     fn take_crossing(&mut self, time: f64, args: &mut AggregateArguments<'_>) {
         let x = args.above_level();
-        if let Some(at) = self.trail.zero(time, x) {
-            (self.result, self.done) = (at, true);
+        if let Some(zero) = self.trail.zero(time, x) {
+            (self.result, self.done) = (zero, true);
         }
         self.trail.remember(time, x);
     }

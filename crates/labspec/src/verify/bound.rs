@@ -112,8 +112,8 @@ impl<'a> BoundVerify<'a> {
     /// Binds the members of a run, one for each of its labs; `false` when one has errors.
     fn add_runs(&mut self, run: &'a Run, scenes: &[BoundLab<'a>], findings: &mut Vec<Finding>) -> bool {
         for (i, scene) in scenes.iter().enumerate() {
-            let at = self.add(scene);
-            let Some(made) = self.run(run, at, findings) else { return false };
+            let lab = self.add(scene);
+            let Some(made) = self.run(run, lab, findings) else { return false };
             self.runs.push(match &run.sweep {
                 None => made,
                 Some(sweep) => {

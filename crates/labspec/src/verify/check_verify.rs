@@ -135,7 +135,7 @@ fn report_runs(
 
 fn list_measures(bound: &BoundVerify<'_>, outcomes: &Outcomes) -> Vec<Measured> {
     let halved = outcomes.perturbed[0].as_ref().map(MeasuredRuns::list);
-    let at = |i: usize, value: f64| {
+    let halved_value = |i: usize, value: f64| {
         halved.as_ref().and_then(|h| h.get(i)).map(|(_, x)| *x).filter(|x| *x != value)
     };
     let nominal = &outcomes.nominal;
@@ -148,7 +148,7 @@ fn list_measures(bound: &BoundVerify<'_>, outcomes: &Outcomes) -> Vec<Measured> 
     list.map(|((i, (name, value)), unit)| Measured {
         name,
         value,
-        halved: at(i, value),
+        halved: halved_value(i, value),
         unit: unit.unwrap_or_default(),
     })
     .collect()

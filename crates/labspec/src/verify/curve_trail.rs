@@ -84,9 +84,9 @@ impl CurveTrail {
         if value == 0.0 && self.below {
             self.reached = self.reached.or(zero);
         } else if value > 0.0 && self.below {
-            if let Some(at) = self.reached.or(zero) {
-                self.first = if self.count == 0 { at } else { self.first };
-                (self.last, self.count) = (at, self.count + 1);
+            if let Some(crossing) = self.reached.or(zero) {
+                self.first = if self.count == 0 { crossing } else { self.first };
+                (self.last, self.count) = (crossing, self.count + 1);
             }
             (self.below, self.reached) = (false, None);
         } else if value < 0.0 {
@@ -138,8 +138,8 @@ mod tests {
     fn crossing(samples: &[(f64, f64)]) -> f64 {
         let mut trail = CurveTrail::START;
         for &(time, value) in samples {
-            if let Some(at) = trail.zero(time, value) {
-                return at;
+            if let Some(zero) = trail.zero(time, value) {
+                return zero;
             }
             trail.remember(time, value);
         }

@@ -170,11 +170,11 @@ impl JointDraws<'_> {
         let draws = &mut self.draws;
         let mut last = None;
         for ((&place, kind), list) in self.places.iter().zip(self.kinds).zip(self.lists) {
-            let (choice, at) = (draws.unit(), draws.unit());
+            let (choice, position) = (draws.unit(), draws.unit());
             let x = match last {
                 _ if choice < 0.3 => None,
                 Some(x) if choice < 0.5 => Some(x),
-                _ => list.get((at * list.len() as f64) as usize).copied(),
+                _ => list.get((position * list.len() as f64) as usize).copied(),
             };
             if let Some(x) = x.filter(|x| kind.has(*x)) {
                 inputs.set_value(place, x);

@@ -96,25 +96,25 @@ fn refused_array(compiled: &Compiled) -> Option<Range<usize>> {
 
 /// The text with an index behind each array, and the map from it to the text.
 fn with_index(text: &Text, arrays: &[Range<usize>], index: &str) -> (Text, SourceMap) {
-    let (mut value, mut origin, mut at) = (String::new(), SourceMap::default(), 0);
-    let insert = |value: &mut String, origin: &mut SourceMap, piece: &str, at: usize| {
+    let (mut value, mut origin, mut offset) = (String::new(), SourceMap::default(), 0);
+    let insert = |value: &mut String, origin: &mut SourceMap, piece: &str, offset: usize| {
         value.push_str(piece);
-        origin.push_whole(piece.len(), at..at);
+        origin.push_whole(piece.len(), offset..offset);
     };
     let copy = |value: &mut String, origin: &mut SourceMap, range: Range<usize>| {
         value.push_str(text.value.get(range.clone()).unwrap_or(""));
         origin.push_verbatim(range);
     };
     for array in arrays {
-        copy(&mut value, &mut origin, at..array.start);
+        copy(&mut value, &mut origin, offset..array.start);
         let is_plain = text.value.get(array.clone()).is_some_and(is_plain);
         let [open, close] = if is_plain { ["", ""] } else { ["(", ")"] };
         insert(&mut value, &mut origin, open, array.start);
         copy(&mut value, &mut origin, array.clone());
         insert(&mut value, &mut origin, &format!("{close}{index}"), array.end);
-        at = array.end;
+        offset = array.end;
     }
-    copy(&mut value, &mut origin, at..text.value.len());
+    copy(&mut value, &mut origin, offset..text.value.len());
     let map = origin.then(&text.map);
     (Text { value, map }, origin)
 }

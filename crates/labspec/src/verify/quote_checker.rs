@@ -141,7 +141,7 @@ pub(super) fn check_words(
     checker: QuoteChecker<'_, '_>,
     claim: &quote::QuoteClaim<'_>,
     given: &QuotedValue,
-    at: &[Range<usize>],
+    places: &[Range<usize>],
     findings: &mut Vec<Finding>,
 ) -> Quote {
     let moved = |others: &[OtherValue]| -> Vec<&'static str> {
@@ -152,7 +152,7 @@ pub(super) fn check_words(
         timestep: moved(&given.timestep),
         start: moved(&given.start),
     };
-    let (state, reason) = quote::check_words(claim, at, &condition, checker.rendered, findings);
+    let (state, reason) = quote::check_words(claim, places, &condition, checker.rendered, findings);
     let computed = f64::from(u8::from(given.holds()));
     let (text, evidence) = (claim.quote.value.clone(), given.found.evidence);
     Quote { text, span: claim.quote.span(), state, evidence, reason, computed }

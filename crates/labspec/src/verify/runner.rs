@@ -113,7 +113,7 @@ pub(super) fn prepare_run<'r>(
             None => finding,
         });
     };
-    set(&mut session, bound, run).map_err(|(at, e)| refuse_at(at, e)).ok()?;
+    set(&mut session, bound, run).map_err(|(span, e)| refuse_at(span, e)).ok()?;
     let mut press = Vec::new();
     let (mut until, mut steps) = (None, None);
     if let Some(spec) = run.spec {
@@ -222,9 +222,9 @@ fn set(
     }
     for (label, v) in run.spec.iter().flat_map(|spec| &spec.set) {
         let is_control = lab.control(&label.value).is_some();
-        let at = if is_control { v.span() } else { label.span() };
+        let span = if is_control { v.span() } else { label.span() };
         let one = [(label.value.clone(), scalar(v))];
-        run::set_controls(session, lab, programs, &one).map_err(|e| (at, e))?;
+        run::set_controls(session, lab, programs, &one).map_err(|e| (span, e))?;
     }
     for (label, value) in &run.controls {
         match programs.control(&label.value).filter(|_| run.freely) {

@@ -34,7 +34,7 @@ fn check_line(
     question: Option<&Question>,
     findings: &mut Vec<Finding>,
 ) -> Vec<Quote> {
-    let at = quote::places_of_quote(&quoted.quote, question, checker.rendered);
+    let places = quote::places_of_quote(&quoted.quote, question, checker.rendered);
     let exprs: Vec<Cow<'_, Text>> =
         quoted.exprs.iter().flat_map(|expr| checker.bound.numbers_of_quote(expr)).collect();
     let mut given = Vec::new();
@@ -72,12 +72,12 @@ fn check_line(
         let claim = |part| quote::QuoteClaim { quote: &quoted.quote, part, expr };
         all.push(match given.is_condition() {
             true => {
-                let at: Vec<Range<usize>> = at.iter().map(|place| place.at.clone()).collect();
-                check_words(checker, &claim(""), &given, &at, findings)
+                let spans: Vec<Range<usize>> = places.iter().map(|place| place.span.clone()).collect();
+                check_words(checker, &claim(""), &given, &spans, findings)
             }
             false => {
                 let part = parts.next().unwrap_or_else(|| quote::whole("", languages));
-                check_number(checker, &claim(&part.text), &part, given, at.clone(), findings)
+                check_number(checker, &claim(&part.text), &part, given, places.clone(), findings)
             }
         });
     }

@@ -66,7 +66,7 @@ pub(super) fn search(
     let mut open = None;
     let mut tried: Vec<(f64, TriedValue)> = Vec::new();
     let mut try_at = |x: f64| -> Option<TriedValue> {
-        if let Some((_, tried_before)) = tried.iter().find(|(at, _)| *at == x) {
+        if let Some((_, tried_before)) = tried.iter().find(|(tried_value, _)| *tried_value == x) {
             return Some(tried_before.clone());
         }
         match holds(case, stage, x, numerics, &mut refused)? {

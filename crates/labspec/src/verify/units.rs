@@ -38,8 +38,8 @@ pub(super) fn of_claim(bound: &BoundVerify<'_>, outcome: &MeasuredRuns, text: &T
     let names = OutcomeNames::new(bound.layout(), base.names(Scope::Measure)).measuring(&units.runs);
     let nothing = |d: &Dimension| d.is_number() && d.factor.is_nan();
     match claim.program.as_ref()?.measured(&names, &units.given).value {
-        Measure::Known(dimension) if !nothing(&dimension) => Some(dimension),
-        Measure::Known(dimension) => by_scale(bound, outcome, &claim, units).or(Some(dimension)),
+        Measure::Dimension(dimension) if !nothing(&dimension) => Some(dimension),
+        Measure::Dimension(dimension) => by_scale(bound, outcome, &claim, units).or(Some(dimension)),
         _ => by_scale(bound, outcome, &claim, units),
     }
 }
@@ -48,7 +48,7 @@ pub(super) fn of_claim(bound: &BoundVerify<'_>, outcome: &MeasuredRuns, text: &T
 pub(super) fn of_measure(bound: &BoundVerify<'_>, run: usize, measure: usize) -> Option<String> {
     let (_, measure) = bound.units()?.runs.get(run)?.get(measure)?;
     match measure {
-        Measure::Known(d) if !d.is_number() && !d.factor.is_nan() => Some(units::written(d)),
+        Measure::Dimension(d) if !d.is_number() && !d.factor.is_nan() => Some(units::written(d)),
         _ => None,
     }
 }
@@ -75,7 +75,7 @@ fn by_scale(
         Some(traced.value.to_number()).filter(|x| x.is_finite() && *x != 0.0)
     };
     let measure = |place: &usize| match bound.layout().unit_of(*place, &units.runs) {
-        Measure::Known(d) if d.is_exact() => Some((*place, d)),
+        Measure::Dimension(d) if d.is_exact() => Some((*place, d)),
         _ => None,
     };
     let measures: Vec<(usize, Dimension)> = claim.reads.iter().map(measure).collect::<Option<_>>()?;
@@ -127,7 +127,7 @@ fn of_axis(run: &BoundRun<'_>, scene: &BoundScene<'_>, what: &Text) -> Option<Me
             }
             measure => measure,
         },
-        None => Measure::Known(units::parse(match what.as_str().rsplit(' ').next()? {
+        None => Measure::Dimension(units::parse(match what.as_str().rsplit(' ').next()? {
             "timestep" => "s",
             "mass" => "kg",
             "size" | "pos" => "m",

@@ -24,9 +24,9 @@ pub fn all() -> &'static [&'static Native] {
 
 /// The first row of a name, and its index.
 fn first(text: &str) -> Option<(u8, &'static Native)> {
-    let at = all().partition_point(|row| row.name < text);
-    let row = all().get(at).filter(|row| row.name == text)?;
-    Some((at as u8, row))
+    let index = all().partition_point(|row| row.name < text);
+    let row = all().get(index).filter(|row| row.name == text)?;
+    Some((index as u8, row))
 }
 
 /// The rows that authors may use.
@@ -36,17 +36,17 @@ pub fn public_rows() -> impl Iterator<Item = &'static Native> {
 
 /// The method with this name, for any receiver.
 pub fn find_method(text: &str) -> Option<MethodId> {
-    first(text).filter(|(_, row)| row.on != ReceiverKind::Nothing).map(|(at, _)| MethodId(at))
+    first(text).filter(|(_, row)| row.on != ReceiverKind::Nothing).map(|(index, _)| MethodId(index))
 }
 
 /// The free function with this name.
 pub fn find_function(text: &str) -> Option<FreeFunctionId> {
-    first(text).filter(|(_, row)| row.on == ReceiverKind::Nothing).map(|(at, _)| FreeFunctionId(at))
+    first(text).filter(|(_, row)| row.on == ReceiverKind::Nothing).map(|(index, _)| FreeFunctionId(index))
 }
 
-/// The rows from index `at` on that have the same name.
-fn of_one_name(at: u8) -> impl Iterator<Item = &'static Native> {
-    let rows = all().get(usize::from(at)..).unwrap_or(&[]);
+/// The rows from `index` on that have the same name.
+fn of_one_name(index: u8) -> impl Iterator<Item = &'static Native> {
+    let rows = all().get(usize::from(index)..).unwrap_or(&[]);
     rows.iter().copied().take_while(|row| row.name == rows[0].name)
 }
 

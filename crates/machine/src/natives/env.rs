@@ -237,8 +237,8 @@ pub(super) fn integer(x: f64) -> f64 {
 /// An index that counts from the end if negative, clamped to `0..=n`.
 pub(super) fn relative(x: f64, n: usize) -> usize {
     let x = integer(x);
-    let at = if x < 0.0 { n as f64 + x } else { x };
-    at.clamp(0.0, n as f64) as usize
+    let index = if x < 0.0 { n as f64 + x } else { x };
+    index.clamp(0.0, n as f64) as usize
 }
 
 /// An argument, or `undefined` if it was omitted.

@@ -119,13 +119,13 @@ fn store(env: &mut Env<'_>, list: &Value, index: usize, item: &Value) -> Result<
 fn at(env: &mut Env<'_>, list: &Value, args: &[Value]) -> NativeOutcome {
     let n = env.len(list);
     let x = integer(env.number(arg(args, 0))?);
-    let at = if x < 0.0 { n as f64 + x } else { x };
-    if at < 0.0 || at >= n as f64 {
+    let index = if x < 0.0 { n as f64 + x } else { x };
+    if index < 0.0 || index >= n as f64 {
         return Ok(Value::Undefined);
     }
     Ok(match list {
-        Value::View(view) => env.view_item(*view, at as usize),
-        _ => env.heap.item(list, at as usize).unwrap_or_default(),
+        Value::View(view) => env.view_item(*view, index as usize),
+        _ => env.heap.item(list, index as usize).unwrap_or_default(),
     })
 }
 
@@ -386,8 +386,8 @@ fn unshift(env: &mut Env<'_>, list: &Value, args: &[Value]) -> NativeOutcome {
 fn with(env: &mut Env<'_>, list: &Value, args: &[Value]) -> NativeOutcome {
     let mut items = env.items(list)?;
     let x = integer(env.number(arg(args, 0))?);
-    let at = if x < 0.0 { items.len() as f64 + x } else { x };
-    match items.get_mut(at as usize).filter(|_| at >= 0.0) {
+    let index = if x < 0.0 { items.len() as f64 + x } else { x };
+    match items.get_mut(index as usize).filter(|_| index >= 0.0) {
         Some(place) => *place = arg(args, 1).clone(),
         None => {
             return Err(NativeError::new(

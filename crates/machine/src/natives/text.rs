@@ -83,12 +83,12 @@ fn units_before(text: &str, byte: usize) -> f64 {
 fn at(env: &mut Env<'_>, text: &Value, args: &[Value]) -> NativeOutcome {
     let units = units(text);
     let x = integer(env.number(arg(args, 0))?);
-    let at = if x < 0.0 { units.len() as f64 + x } else { x };
-    if at < 0.0 || at >= units.len() as f64 {
+    let index = if x < 0.0 { units.len() as f64 + x } else { x };
+    if index < 0.0 || index >= units.len() as f64 {
         return Ok(Value::Undefined);
     }
-    let at = at as usize;
-    from_units(env, units.get(at..at + 1).unwrap_or(&[]))
+    let index = index as usize;
+    from_units(env, units.get(index..index + 1).unwrap_or(&[]))
 }
 
 fn concat(env: &mut Env<'_>, text: &Value, args: &[Value]) -> NativeOutcome {
@@ -152,17 +152,17 @@ fn substring(env: &mut Env<'_>, text: &Value, args: &[Value]) -> NativeOutcome {
 
 fn char_at(env: &mut Env<'_>, text: &Value, args: &[Value]) -> NativeOutcome {
     let units = units(text);
-    let at = integer(env.number(arg(args, 0))?);
-    if at < 0.0 || at >= units.len() as f64 {
+    let index = integer(env.number(arg(args, 0))?);
+    if index < 0.0 || index >= units.len() as f64 {
         return Ok(Value::from(""));
     }
-    let at = at as usize;
-    from_units(env, units.get(at..at + 1).unwrap_or(&[]))
+    let index = index as usize;
+    from_units(env, units.get(index..index + 1).unwrap_or(&[]))
 }
 
 fn char_code_at(env: &mut Env<'_>, text: &Value, args: &[Value]) -> NativeOutcome {
-    let at = integer(env.number(arg(args, 0))?);
-    let unit = if at < 0.0 { None } else { str_of(text).encode_utf16().nth(at as usize) };
+    let index = integer(env.number(arg(args, 0))?);
+    let unit = if index < 0.0 { None } else { str_of(text).encode_utf16().nth(index as usize) };
     Ok(Value::Number(unit.map_or(f64::NAN, f64::from)))
 }
 
@@ -224,9 +224,9 @@ fn repeat(env: &mut Env<'_>, text: &Value, args: &[Value]) -> NativeOutcome {
 fn replacement(pattern: &str, found: &str, before: &str, after: &str) -> String {
     let mut out = String::new();
     let mut rest = pattern;
-    while let Some(at) = rest.find('$') {
-        out.push_str(rest.get(..at).unwrap_or(""));
-        let (text, length) = match rest.as_bytes().get(at + 1) {
+    while let Some(offset) = rest.find('$') {
+        out.push_str(rest.get(..offset).unwrap_or(""));
+        let (text, length) = match rest.as_bytes().get(offset + 1) {
             Some(b'$') => ("$", 2),
             Some(b'&') => (found, 2),
             Some(b'`') => (before, 2),
@@ -234,7 +234,7 @@ fn replacement(pattern: &str, found: &str, before: &str, after: &str) -> String 
             _ => ("$", 1),
         };
         out.push_str(text);
-        rest = rest.get(at + length..).unwrap_or("");
+        rest = rest.get(offset + length..).unwrap_or("");
     }
     out + rest
 }
@@ -242,8 +242,8 @@ fn replacement(pattern: &str, found: &str, before: &str, after: &str) -> String 
 fn replace(env: &mut Env<'_>, text: &Value, args: &[Value]) -> NativeOutcome {
     let (from, to) = (env.text(arg(args, 0))?, env.text(arg(args, 1))?);
     let text = str_of(text);
-    let Some(at) = text.find(&from) else { return env.string(text.to_owned()) };
-    let (before, after) = (text.get(..at).unwrap_or(""), text.get(at + from.len()..).unwrap_or(""));
+    let Some(offset) = text.find(&from) else { return env.string(text.to_owned()) };
+    let (before, after) = (text.get(..offset).unwrap_or(""), text.get(offset + from.len()..).unwrap_or(""));
     env.string(format!("{before}{}{after}", replacement(&to, &from, before, after)))
 }
 
@@ -252,11 +252,11 @@ fn replace_all(env: &mut Env<'_>, text: &Value, args: &[Value]) -> NativeOutcome
     let text = str_of(text);
     let mut out = String::new();
     let mut last = 0;
-    for (at, found) in text.match_indices(&from) {
-        out.push_str(text.get(last..at).unwrap_or(""));
-        let after = text.get(at + found.len()..).unwrap_or("");
-        out.push_str(&replacement(&to, found, text.get(..at).unwrap_or(""), after));
-        last = at + found.len();
+    for (start, found) in text.match_indices(&from) {
+        out.push_str(text.get(last..start).unwrap_or(""));
+        let after = text.get(start + found.len()..).unwrap_or("");
+        out.push_str(&replacement(&to, found, text.get(..start).unwrap_or(""), after));
+        last = start + found.len();
         if out.len() > MAX_TEXT {
             return Err(super::too_long());
         }

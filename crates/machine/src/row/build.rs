@@ -51,13 +51,13 @@ impl Row {
         mut free: impl Iterator<Item = u8>,
     ) -> Option<Row> {
         let mut homes = Vec::with_capacity(formula.steps.len());
-        for (at, step) in (0..).zip(&formula.steps) {
+        for (id, step) in (0..).zip(&formula.steps) {
             let home = match step {
                 FormulaStep::Load(field, index) => {
                     u8::try_from(elements.binary_search(&(*field, *index)).ok()?).ok()
                 }
                 FormulaStep::Input(register) => u8::try_from(*register).ok(),
-                _ => match requested.iter().find(|w| w.step == at && w.at_once) {
+                _ => match requested.iter().find(|w| w.step == id && w.at_once) {
                     Some(requested) => Some(requested.register),
                     None => free.next(),
                 },
@@ -65,8 +65,8 @@ impl Row {
             homes.push(home?);
         }
         let mut build = RowBuilder { formula, homes, ops: Vec::new(), args: Vec::new(), at_hand: None };
-        for (at, step) in (0..).zip(&formula.steps) {
-            build.step(at, *step)?;
+        for (id, step) in (0..).zip(&formula.steps) {
+            build.step(id, *step)?;
         }
         for requested in requested {
             if build.register_of(requested.step) == Some(requested.register) {
@@ -89,11 +89,11 @@ impl Row {
     /// this replaces the operation.
     fn begin(&mut self) -> u8 {
         let first = self.ops.iter().position(|op| !matches!(op, RowOp::Put(..)));
-        match first.and_then(|at| Some((at, *self.ops.get(at)?))) {
-            Some((at, RowOp::Take(r)))
+        match first.and_then(|index| Some((index, *self.ops.get(index)?))) {
+            Some((index, RowOp::Take(r)))
                 if !self.ops.iter().any(|op| matches!(op, RowOp::Put(put, _) if *put == r)) =>
             {
-                self.ops.remove(at);
+                self.ops.remove(index);
                 r
             }
             _ => 0,
@@ -113,14 +113,14 @@ struct RowBuilder<'f> {
 }
 
 impl RowBuilder<'_> {
-    fn register_of(&self, at: StepId) -> Option<u8> {
-        self.homes.get(at as usize).copied()
+    fn register_of(&self, step: StepId) -> Option<u8> {
+        self.homes.get(step as usize).copied()
     }
 
     /// Loads a result into the accumulator.
-    fn take(&mut self, at: StepId) -> Option<()> {
-        if self.at_hand != Some(at) {
-            self.ops.push(RowOp::Take(self.register_of(at)?));
+    fn take(&mut self, step: StepId) -> Option<()> {
+        if self.at_hand != Some(step) {
+            self.ops.push(RowOp::Take(self.register_of(step)?));
         }
         Some(())
     }
@@ -141,11 +141,11 @@ impl RowBuilder<'_> {
     }
 
     /// Emits an operation, and stores its result in its register for later use.
-    fn step(&mut self, at: StepId, step: FormulaStep) -> Option<()> {
+    fn step(&mut self, id: StepId, step: FormulaStep) -> Option<()> {
         let op = match step {
             FormulaStep::Load(..) | FormulaStep::Input(_) => return Some(()),
             FormulaStep::Constant(k) => {
-                self.ops.push(RowOp::Put(self.register_of(at)?, k.number()));
+                self.ops.push(RowOp::Put(self.register_of(id)?, k.number()));
                 return Some(());
             }
             FormulaStep::Binary(BinaryOp::Add, a, b) => self.two(a, b, RowOp::Add, RowOp::Add)?,
@@ -173,8 +173,8 @@ impl RowBuilder<'_> {
             }
             FormulaStep::Math(function, first, count) => self.math(function, first, count)?,
         };
-        self.ops.extend([op, RowOp::Keep(self.register_of(at)?)]);
-        self.at_hand = Some(at);
+        self.ops.extend([op, RowOp::Keep(self.register_of(id)?)]);
+        self.at_hand = Some(id);
         Some(())
     }
 

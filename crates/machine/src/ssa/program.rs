@@ -142,15 +142,15 @@ impl SsaFunction {
 
     /// The value of a number, if it is constant.
     pub fn constant(&self, number: Num) -> Option<f64> {
-        let at = self.numbers.binary_search_by_key(&number, |(n, _)| *n).ok()?;
-        self.numbers.get(at).map(|(_, x)| *x)
+        let index = self.numbers.binary_search_by_key(&number, |(n, _)| *n).ok()?;
+        self.numbers.get(index).map(|(_, x)| *x)
     }
 
     /// The value, if it is constant.
     pub fn constant_value(&self, value: Val) -> Option<&Value> {
         let value = self.same.value(value);
-        let at = self.values.binary_search_by_key(&value, |(v, _)| *v).ok()?;
-        self.values.get(at).map(|(_, x)| x)
+        let index = self.values.binary_search_by_key(&value, |(v, _)| *v).ok()?;
+        self.values.get(index).map(|(_, x)| x)
     }
 }
 
@@ -163,8 +163,8 @@ impl Aliases {
         Val(last(&self.values, v.0))
     }
 
-    pub fn at(&self, at: Operand) -> Operand {
-        match at {
+    pub fn at(&self, operand: Operand) -> Operand {
+        match operand {
             Operand::Number(n) => Operand::Number(self.number(n)),
             Operand::Value(v) => Operand::Value(self.value(v)),
         }
@@ -205,12 +205,12 @@ impl Aliases {
 }
 
 /// Follows a chain of aliases to its end.
-fn last(names: &[u32], mut at: u32) -> u32 {
-    while let Some(&next) = names.get(at as usize) {
-        if next == at {
+fn last(names: &[u32], mut name: u32) -> u32 {
+    while let Some(&next) = names.get(name as usize) {
+        if next == name {
             break;
         }
-        at = next;
+        name = next;
     }
-    at
+    name
 }

@@ -21,14 +21,14 @@ impl Machine<'_> {
         callee: &Value,
         args: &[Value],
     ) -> Result<Value, StepError> {
-        let (code, at, captures) = match self.context.heap.object(callee) {
+        let (code, index, captures) = match self.context.heap.object(callee) {
             HeapObject::Closure { code, unit, captures } => (code.clone(), *unit, captures.clone()),
             object => {
                 let message = format!("{} is called but is not a function", describe(callee, object));
                 return Err(NativeError::new(rules::NOT_CALLABLE, message).into());
             }
         };
-        let Some(function) = code.units.get(at as usize) else { return Ok(Value::Undefined) };
+        let Some(function) = code.units.get(index as usize) else { return Ok(Value::Undefined) };
         self.enter(function)?;
         let frame = RegisterFrame { n: f.n + unit.number_count as usize, v: f.v + unit.value_count as usize };
         self.make_room(function, frame);

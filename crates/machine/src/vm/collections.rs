@@ -286,7 +286,7 @@ impl Machine<'_> {
         let Some(picks) = code.form.picks.get(table as usize) else { return Ok(Value::Undefined) };
         let MemberTable { noun, members, .. } = &**picks;
         match members.binary_search_by(|(n, _)| (**n).cmp(&name)) {
-            Ok(at) => Ok(members.get(at).map(|(_, v)| v.clone()).unwrap_or_default()),
+            Ok(index) => Ok(members.get(index).map(|(_, v)| v.clone()).unwrap_or_default()),
             Err(_) => {
                 let near = labspec_finding::nearest(&name, members.iter().map(|(n, _)| &**n));
                 let meant = near.map(|n| format!("; did you mean \"{n}\"?")).unwrap_or_default();

@@ -20,13 +20,13 @@ impl Machine<'_> {
         index: u32,
         unit: &MachineFunction,
         f: RegisterFrame,
-        at: usize,
+        pc: usize,
     ) {
         match self.host.get(field, index as usize) {
             Some(x) => self.put(f, dst, x),
             None => {
                 let view = View::new(field, 0, None);
-                self.note(EventKind::ReadPastEnd, unit, at, view, f64::from(index));
+                self.note(EventKind::ReadPastEnd, unit, pc, view, f64::from(index));
                 self.put(f, dst, f64::NAN);
             }
         }
@@ -41,13 +41,13 @@ impl Machine<'_> {
         index: u32,
         unit: &MachineFunction,
         f: RegisterFrame,
-        at: usize,
+        pc: usize,
     ) {
         let place = (view.first as usize).saturating_add(index as usize);
         match self.host.get(view.field, place) {
             Some(x) => self.put_value(f, dst, Value::Number(x)),
             None => {
-                self.note(EventKind::ReadPastEnd, unit, at, view, f64::from(index));
+                self.note(EventKind::ReadPastEnd, unit, pc, view, f64::from(index));
                 self.put_value(f, dst, Value::Undefined);
             }
         }
@@ -62,9 +62,9 @@ impl Machine<'_> {
         index: Num,
         unit: &MachineFunction,
         f: RegisterFrame,
-        at: usize,
+        pc: usize,
     ) {
-        match self.element(view, self.num(f, index), unit, at) {
+        match self.element(view, self.num(f, index), unit, pc) {
             Some(x) => self.put_value(f, dst, Value::Number(x)),
             None => self.put_value(f, dst, Value::Undefined),
         }
@@ -87,7 +87,7 @@ impl Machine<'_> {
         view: View,
         written: f64,
         unit: &MachineFunction,
-        at: usize,
+        pc: usize,
     ) -> Option<f64> {
         // No field has more than 2^32 elements. The comparison is false for NaN and for fractions.
         let index = written as u32;
@@ -98,7 +98,7 @@ impl Machine<'_> {
             None
         };
         if found.is_none() {
-            self.note(EventKind::ReadPastEnd, unit, at, view, written);
+            self.note(EventKind::ReadPastEnd, unit, pc, view, written);
         }
         found
     }
@@ -112,11 +112,11 @@ impl Machine<'_> {
         &mut self,
         kind: EventKind,
         unit: &MachineFunction,
-        at: usize,
+        pc: usize,
         view: View,
         index: f64,
     ) {
         let len = self.length(view);
-        self.context.note(RuntimeEvent { kind, span: span_of(unit, at), field: view.field, index, len });
+        self.context.note(RuntimeEvent { kind, span: span_of(unit, pc), field: view.field, index, len });
     }
 }

@@ -155,38 +155,38 @@ impl Machine<'_> {
         f: RegisterFrame,
     ) -> RunResult {
         self.put_constants(unit, f);
-        let mut at = 0;
-        while let Some(&op) = unit.ops.get(at) {
-            at += 1;
+        let mut pc = 0;
+        while let Some(&op) = unit.ops.get(pc) {
+            pc += 1;
             let operands = if WATCHED { self.before(op, unit, f) } else { Operands::NONE };
             match op {
-                Op::Jump(to) => at = to as usize,
+                Op::Jump(to) => pc = to as usize,
                 Op::JumpIf(when, test, to) => {
                     if WATCHED {
-                        self.settle(unit, at - 1);
+                        self.settle(unit, pc - 1);
                     }
                     if truthy(self.num(f, test)) == when {
-                        at = to as usize;
+                        pc = to as usize;
                     }
                 }
                 Op::JumpIfNothing(when, value, to) => {
                     if self.val(f, value).is_nothing() == when {
-                        at = to as usize;
+                        pc = to as usize;
                     }
                 }
                 Op::Again(to, turn) => {
-                    self.count_iteration(u64::from(turn), unit, at - 1)?;
-                    at = to as usize;
+                    self.count_iteration(u64::from(turn), unit, pc - 1)?;
+                    pc = to as usize;
                 }
                 Op::Return => return Ok(()),
 
-                Op::Load(dst, field, index) => self.load(dst, field, index, unit, f, at - 1),
+                Op::Load(dst, field, index) => self.load(dst, field, index, unit, f, pc - 1),
                 Op::LoadAt(dst, view, index) => {
-                    let x = self.element(view, self.num(f, index), unit, at - 1).unwrap_or(f64::NAN);
+                    let x = self.element(view, self.num(f, index), unit, pc - 1).unwrap_or(f64::NAN);
                     self.put(f, dst, x);
                 }
-                Op::LoadValue(dst, view, index) => self.load_value(dst, view, index, unit, f, at - 1),
-                Op::LoadValueAt(dst, view, index) => self.load_value_at(dst, view, index, unit, f, at - 1),
+                Op::LoadValue(dst, view, index) => self.load_value(dst, view, index, unit, f, pc - 1),
+                Op::LoadValueAt(dst, view, index) => self.load_value_at(dst, view, index, unit, f, pc - 1),
                 Op::BoxNumber(dst, src) => self.put_value(f, dst, Value::Number(self.num(f, src))),
                 Op::Binary(dst, op, a, b) => {
                     let (a, b) = (self.num(f, a), self.num(f, b));
@@ -207,21 +207,21 @@ impl Machine<'_> {
                     let value = self.val(f, src).clone();
                     self.context.values[f.v + (unit.value_count + k) as usize] = value;
                 }
-                Op::Call(callee) => self.call(code, callee, unit, f, at - 1)?,
+                Op::Call(callee) => self.call(code, callee, unit, f, pc - 1)?,
                 Op::TakeNumber(dst) => self.put(f, dst, self.num(f, Num(unit.number_count))),
                 Op::TakeValue(dst) => {
                     let value = std::mem::take(&mut self.context.values[f.v + unit.value_count as usize]);
                     self.put_value(f, dst, value);
                 }
                 _ => {
-                    if let Err(stop) = self.step(op, code, unit, f, at - 1) {
-                        return Err(stop.at(unit, at - 1));
+                    if let Err(stop) = self.step(op, code, unit, f, pc - 1) {
+                        return Err(stop.at(unit, pc - 1));
                     }
                 }
             }
             if WATCHED {
                 self.after(op, operands, f);
-                self.settle(unit, at - 1);
+                self.settle(unit, pc - 1);
             }
         }
         Ok(())
@@ -264,10 +264,10 @@ impl Machine<'_> {
 
     /// Subtracts the cost of an iteration of a loop.
     #[inline(always)]
-    fn count_iteration(&mut self, turn: u64, unit: &MachineFunction, at: usize) -> RunResult {
+    fn count_iteration(&mut self, turn: u64, unit: &MachineFunction, pc: usize) -> RunResult {
         if self.budget < turn {
             self.budget = 0;
-            return Err(failure(natives::out_of_steps(), unit, at));
+            return Err(failure(natives::out_of_steps(), unit, pc));
         }
         self.budget -= turn;
         Ok(())
@@ -280,12 +280,12 @@ impl Machine<'_> {
         callee: u32,
         unit: &MachineFunction,
         f: RegisterFrame,
-        at: usize,
+        pc: usize,
     ) -> RunResult {
         let frame = RegisterFrame { n: f.n + unit.number_count as usize, v: f.v + unit.value_count as usize };
         let Some(callee) = code.units.get(callee as usize) else { return Ok(()) };
         if let Err(fault) = self.enter(callee) {
-            return Err(failure(fault, unit, at));
+            return Err(failure(fault, unit, pc));
         }
         self.make_room(callee, frame);
         let result = self.execute(code, callee, frame);
@@ -337,9 +337,9 @@ pub(super) enum StepError {
 impl StepError {
     /// The error with the location of the operation.
     #[cold]
-    fn at(self, unit: &MachineFunction, at: usize) -> Box<RuntimeError> {
+    fn at(self, unit: &MachineFunction, pc: usize) -> Box<RuntimeError> {
         match self {
-            StepError::Here(fault) => failure(fault, unit, at),
+            StepError::Here(fault) => failure(fault, unit, pc),
             StepError::Inside(error) => error,
         }
     }
@@ -357,11 +357,11 @@ impl From<crate::heap::Full> for StepError {
     }
 }
 
-pub(super) fn span_of(unit: &MachineFunction, at: usize) -> Span {
-    unit.spans.get(at).copied().unwrap_or_default()
+pub(super) fn span_of(unit: &MachineFunction, pc: usize) -> Span {
+    unit.spans.get(pc).copied().unwrap_or_default()
 }
 
 #[cold]
-fn failure(fault: NativeError, unit: &MachineFunction, at: usize) -> Box<RuntimeError> {
-    Box::new(RuntimeError { rule: fault.rule, span: span_of(unit, at), message: fault.message })
+fn failure(fault: NativeError, unit: &MachineFunction, pc: usize) -> Box<RuntimeError> {
+    Box::new(RuntimeError { rule: fault.rule, span: span_of(unit, pc), message: fault.message })
 }

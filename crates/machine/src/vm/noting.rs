@@ -111,9 +111,9 @@ impl Machine<'_> {
         }
     }
 
-    pub(super) fn settle(&mut self, unit: &MachineFunction, at: usize) {
+    pub(super) fn settle(&mut self, unit: &MachineFunction, pc: usize) {
         if let Some(watch) = &mut self.context.watch {
-            watch.settle(span_of(unit, at));
+            watch.settle(span_of(unit, pc));
         }
     }
 

@@ -28,7 +28,7 @@ impl Machine<'_> {
         code: &Arc<MachineCode>,
         unit: &MachineFunction,
         f: RegisterFrame,
-        at: usize,
+        pc: usize,
     ) -> Result<(), StepError> {
         match op {
             Op::Length(dst, view) => self.put(f, dst, self.length(view) as f64),
@@ -67,7 +67,7 @@ impl Machine<'_> {
                 let written = self.num(f, index);
                 match self.position(view, written) {
                     Some(index) => self.store(view.field, index, self.num(f, src))?,
-                    None => self.note(EventKind::StorePastEnd, unit, at, view, written),
+                    None => self.note(EventKind::StorePastEnd, unit, pc, view, written),
                 }
             }
             Op::StoreGlobal(slot, src) => {

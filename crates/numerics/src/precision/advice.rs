@@ -16,15 +16,15 @@ fn is_compared_to_end(row: &PrecisionRow) -> bool {
 /// The reliable error, in multiples of the smallest visible error: the largest error of this timestep and of all shorter ones
 /// of the same method. This way, a timestep that happens to hit an impact well gets no advantage.
 fn reliable(rows: &[PrecisionRow], i: usize) -> f64 {
-    let mine = rows[i].setting;
+    let setting = rows[i].setting;
     let shorter = |r: &&PrecisionRow| {
-        r.setting.integrator == mine.integrator
+        r.setting.integrator == setting.integrator
             && r.setting.solver.is_none()
-            && r.setting.timestep < mine.timestep
+            && r.setting.timestep < setting.timestep
     };
     let others =
         rows.iter().filter(shorter).map(|r| if is_compared_to_end(r) { r.score } else { f64::INFINITY });
-    if mine.solver.is_some() { rows[i].score } else { others.fold(rows[i].score, f64::max) }
+    if setting.solver.is_some() { rows[i].score } else { others.fold(rows[i].score, f64::max) }
 }
 
 /// The settings for which no other is better in both error and cost, from the cheapest to the most accurate.
@@ -202,7 +202,7 @@ fn describe_own_error(report: &PrecisionResults, own_row: usize) -> String {
             )
         }
     };
-    let how = format!("up to {} at {} s", with_unit(e.largest, target), labspec::run::time(e.at));
+    let how = format!("up to {} at {} s", with_unit(e.largest, target), labspec::run::time(e.time));
     format!("With the settings of the lab, {name}, \"{}\" is off by {how}, {seen}.", target.label)
 }
 

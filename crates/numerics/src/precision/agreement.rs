@@ -33,7 +33,7 @@ pub(super) struct ReferenceSolution {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct KnownEvent {
     /// The time, s; NaN if the event does not happen or its time is unknown.
-    pub(super) at: f64,
+    pub(super) time: f64,
     /// The uncertainty of the time, s.
     pub(super) uncertainty: f64,
     /// Whether a turning point is a maximum.
@@ -78,17 +78,17 @@ pub(super) fn agreed(
     let n = case.targets.len();
     let one = |(i, (a, b)): (usize, (&EventTime, &EventTime))| {
         let target = (1..=n).contains(&i).then(|| uncertain.get(i - 1)).flatten();
-        let sample = (a.at / case.interval).ceil() as usize;
+        let sample = (a.time / case.interval).ceil() as usize;
         let value = target.and_then(|list| list.get(sample.min(list.len().saturating_sub(1))));
         let moved = value.map_or(0.0, |u| u / a.slope.min(b.slope).max(f64::MIN_POSITIVE));
         // The shift of a turning point shows only in the difference.
-        let difference = if i > n { 4.0 } else { 2.0 } * (a.at - b.at).abs();
-        let rounding = f64::EPSILON * (8.0 + steps.sqrt()) * a.at;
+        let difference = if i > n { 4.0 } else { 2.0 } * (a.time - b.time).abs();
+        let rounding = f64::EPSILON * (8.0 + steps.sqrt()) * a.time;
         let uncertainty = difference + a.uncertainty + b.uncertainty + moved + rounding;
         // If the difference is NaN, the event is unknown.
         match uncertainty <= UNKNOWN * case.length() && a.top == b.top {
-            true => KnownEvent { at: a.at, uncertainty, top: a.top },
-            false => KnownEvent { at: f64::NAN, uncertainty: f64::NAN, top: false },
+            true => KnownEvent { time: a.time, uncertainty, top: a.top },
+            false => KnownEvent { time: f64::NAN, uncertainty: f64::NAN, top: false },
         }
     };
     a.iter().zip(b).enumerate().map(one).collect()

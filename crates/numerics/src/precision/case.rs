@@ -90,7 +90,7 @@ const CONSERVATION_SAMPLES: usize = 100;
 fn unit_of(label: &str, measured: Option<Measure>) -> Option<String> {
     let stated = of_label(label).map(|(text, _)| text.to_string());
     let computed = || match measured? {
-        Measure::Known(dimension) => Some(written(&dimension)),
+        Measure::Dimension(dimension) => Some(written(&dimension)),
         _ => None,
     };
     // A unit times a number has no name.

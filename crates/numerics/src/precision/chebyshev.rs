@@ -23,10 +23,10 @@ pub(super) fn turning_point(
     if count < 3 {
         return None;
     }
-    let at: Vec<f64> = (0..count).map(|j| direction * bench.value(j, 0.0, target, evaluate)).collect();
+    let samples: Vec<f64> = (0..count).map(|j| direction * bench.value(j, 0.0, target, evaluate)).collect();
     // A displayed value may belong to the previous state.
-    let middle = (1..count - 1).max_by(|&a, &b| at[a].total_cmp(&at[b]))?;
-    let [before, current, after] = [at.get(middle + 1)?, at.get(middle)?, at.get(middle - 1)?];
+    let middle = (1..count - 1).max_by(|&a, &b| samples[a].total_cmp(&samples[b]))?;
+    let [before, current, after] = [samples.get(middle + 1)?, samples.get(middle)?, samples.get(middle - 1)?];
     let (h, next) = (bench.history.step(middle + 1), bench.history.step(middle));
     let start = bench.history.time(middle + 1);
     let top = direction > 0.0;
@@ -35,8 +35,8 @@ pub(super) fn turning_point(
         let (rise, fall) = ((current - before) / h, (after - current) / next);
         let curvature = (fall - rise) / (0.5 * (h + next));
         let x = 0.5 * h - rise / curvature;
-        let at = start + if x.is_finite() { x.clamp(0.0, h + next) } else { h };
-        Some(EventTime { at, uncertainty: h + next, slope: f64::INFINITY, top })
+        let time = start + if x.is_finite() { x.clamp(0.0, h + next) } else { h };
+        Some(EventTime { time, uncertainty: h + next, slope: f64::INFINITY, top })
     };
     if !dense {
         return parabola();
@@ -57,7 +57,7 @@ pub(super) fn turning_point(
     let Some((x, uncertainty)) = turn(&values) else { return parabola() };
     let other = turn(&every_second).map_or(2.0, |(y, _)| (x - y).abs());
     let uncertainty = half * (uncertainty + other).min(2.0);
-    Some(EventTime { at: start + half * (1.0 + x), uncertainty, slope: f64::INFINITY, top })
+    Some(EventTime { time: start + half * (1.0 + x), uncertainty, slope: f64::INFINITY, top })
 }
 
 /// The position of the maximum inside [-1, 1], from the values at the Chebyshev points from 1 down to -1,

@@ -39,9 +39,9 @@ pub fn compare(
     let truth = find_reference(&mut case, &ladder)?;
     let settings = ladder.settings(options);
     let Some(truth) = truth else { return without_reference(case, &settings, &ladder) };
-    let mine = Setting { integrator: ladder.integrator, timestep: ladder.timestep, solver: None };
-    let mine = case.run(&mine, RecordRequest::default())?;
-    let targets = judge::compared(&case, &truth, &mine);
+    let setting = Setting { integrator: ladder.integrator, timestep: ladder.timestep, solver: None };
+    let lab_run = case.run(&setting, RecordRequest::default())?;
+    let targets = judge::compared(&case, &truth, &lab_run);
     let blank = targets.iter().filter(|t| t.blank);
     case.omitted.extend(
         blank.map(|t| OmittedNumber { label: t.label.clone(), reason: "it is not a number at the start" }),

@@ -272,7 +272,7 @@ impl<'s> EventFinder<'s> {
             bench.session.world.data.fields().contact.iter().map(|c| length(c.pos)).fold(1.0, f64::max);
         let rounding = 8.0 * f64::EPSILON * size / speed.max(f64::MIN_POSITIVE);
         let uncertainty = (high - low) + if rounding.is_finite() { rounding.min(h) } else { h };
-        EventTime { at: start + high, uncertainty, slope: f64::INFINITY, top: false }
+        EventTime { time: start + high, uncertainty, slope: f64::INFINITY, top: false }
     }
 }
 
@@ -292,7 +292,7 @@ fn between(history: &StepHistory, last: f64, current: f64) -> EventTime {
     let h = history.step(1);
     let part = (last / (last - current)).clamp(0.0, 1.0);
     EventTime {
-        at: history.time(1) + part * h,
+        time: history.time(1) + part * h,
         uncertainty: 2.0 * h,
         slope: (current - last).abs() / h,
         top: false,
@@ -350,5 +350,5 @@ fn crossing_time(
     let size = bench.size.max(residual);
     let rounding = (8.0 * f64::EPSILON * size + residual) / slope.max(f64::MIN_POSITIVE);
     let uncertainty = (high - low) + rounding.min(2.0 * h);
-    Some(EventTime { at: start + 0.5 * (low + high), uncertainty, slope, top: false })
+    Some(EventTime { time: start + 0.5 * (low + high), uncertainty, slope, top: false })
 }

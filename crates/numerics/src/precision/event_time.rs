@@ -4,7 +4,7 @@
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct EventTime {
     /// The time, s; NaN if the event does not happen.
-    pub(super) at: f64,
+    pub(super) time: f64,
     /// The error of the search, s.
     pub(super) uncertainty: f64,
     /// The rate of change of the number at the event, in its unit per s; infinite if an error of the number
@@ -16,5 +16,5 @@ pub(super) struct EventTime {
 
 impl EventTime {
     pub(super) const NONE: EventTime =
-        EventTime { at: f64::NAN, uncertainty: f64::NAN, slope: f64::INFINITY, top: false };
+        EventTime { time: f64::NAN, uncertainty: f64::NAN, slope: f64::INFINITY, top: false };
 }

@@ -58,8 +58,8 @@ pub(super) fn events(
         let again =
             i.checked_sub(1).map(|k| k % n.max(1)).is_some_and(|k| (0..k).any(|j| text(j) == text(k)));
         let horizon = target.map_or(all, |t| if t.blank { Some(0.0) } else { t.until });
-        match !again && horizon.is_none_or(|until| exact_event.at + exact_event.uncertainty <= until) {
-            true => Event { name, time: exact_event.at, uncertain: exact_event.uncertainty },
+        match !again && horizon.is_none_or(|until| exact_event.time + exact_event.uncertainty <= until) {
+            true => Event { name, time: exact_event.time, uncertain: exact_event.uncertainty },
             false => Event { name, time: f64::NAN, uncertain: f64::NAN },
         }
     };
@@ -69,7 +69,7 @@ pub(super) fn events(
 /// The timing errors of a run's events, s; never smaller than the uncertainty of the event.
 pub(super) fn timing_errors(run: &SampledRun, events: &[Event]) -> Vec<f64> {
     let off = |(i, event): (usize, &Event)| {
-        let found = run.moments.get(i).map_or(f64::NAN, |m| m.at);
+        let found = run.moments.get(i).map_or(f64::NAN, |m| m.time);
         let off = (found - event.time).abs();
         if off.is_nan() { f64::NAN } else { off.max(event.uncertain) }
     };

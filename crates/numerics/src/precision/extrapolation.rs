@@ -28,7 +28,7 @@ struct TableEntry {
 
 impl TableEntry {
     fn from_run(run: &SampledRun) -> TableEntry {
-        TableEntry { values: run.values.clone(), moments: run.moments.iter().map(|m| m.at).collect() }
+        TableEntry { values: run.values.clone(), moments: run.moments.iter().map(|m| m.time).collect() }
     }
 
     /// Extrapolates this entry and the one with twice the step, if the lowest power of the error is `power`.
@@ -124,15 +124,15 @@ fn finish(
         }
     }
     let depth_doubt = other.as_ref().map_or(f64::NAN, |o| (o.penetration - seen.penetration).abs());
-    let at = |moments: &[f64], uncertainties: bool| -> Vec<EventTime> {
-        let one = |(m, at): (&EventTime, &f64)| EventTime {
-            at: *at,
+    let event_times = |moments: &[f64], uncertainties: bool| -> Vec<EventTime> {
+        let one = |(m, time): (&EventTime, &f64)| EventTime {
+            time: *time,
             uncertainty: if uncertainties { m.uncertainty } else { 0.0 },
             ..*m
         };
         seen.moments.iter().zip(moments).map(one).collect()
     };
-    let (fine, rough) = (at(&entry.moments, true), at(&coarse.moments, false));
+    let (fine, rough) = (event_times(&entry.moments, true), event_times(&coarse.moments, false));
     let moments = agreed(case, &uncertain, [&fine, &rough], case.length() / step);
     let how = format!(
         "rkmk8{} with the controller at steps from {} to {} ms, extrapolated to none",

@@ -12,7 +12,7 @@ pub struct Errors {
     /// The largest error.
     pub largest: f64,
     /// The time of the largest error, s.
-    pub at: f64,
+    pub time: f64,
     /// The root mean square error.
     pub rms: f64,
     /// The error at the last sample that is compared.
@@ -34,7 +34,7 @@ impl Errors {
     /// No information.
     const NONE: Errors = Errors {
         largest: f64::NAN,
-        at: f64::NAN,
+        time: f64::NAN,
         rms: f64::NAN,
         end: f64::NAN,
         below: false,
@@ -137,8 +137,9 @@ pub(super) fn compared(
         // number should be constant is.
         let mut range_of = range(values);
         if range_of <= CONSTANT * whole {
-            let mine = if own_run.status == RunStatus::Good { range(&own_run.values[i]) } else { 0.0 };
-            range_of = range_of.max(if mine > 0.0 { mine } else { whole });
+            let range_of_run =
+                if own_run.status == RunStatus::Good { range(&own_run.values[i]) } else { 0.0 };
+            range_of = range_of.max(if range_of_run > 0.0 { range_of_run } else { whole });
         }
         let invisible_error = target.display.invisible_error(range_of);
         let enough = (KNOWN * range_of).max(INVISIBLE_FRACTION * invisible_error).max(ROUNDING);
@@ -189,14 +190,14 @@ pub(super) fn errors(
         let compared = target.samples.div_ceil(stride).min(run.values[i].len());
         let both = run.values[i].iter().zip(truth.iter().step_by(step)).take(compared);
         let mut e =
-            Errors { largest: 0.0, at: 0.0, rms: 0.0, samples: compared, seen: [0.0; 2], ..Errors::NONE };
+            Errors { largest: 0.0, time: 0.0, rms: 0.0, samples: compared, seen: [0.0; 2], ..Errors::NONE };
         for (k, (&displayed, &exact)) in both.enumerate() {
             let d = (displayed - exact).abs();
             if d.is_nan() {
                 return Errors::NONE;
             }
             if d > e.largest {
-                (e.largest, e.at) = (d, (k * stride) as f64 * case.interval);
+                (e.largest, e.time) = (d, (k * stride) as f64 * case.interval);
             }
             e.rms += d * d;
             e.end = d;

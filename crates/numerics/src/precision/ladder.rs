@@ -82,11 +82,11 @@ impl Ladder {
             steps.map(move |s| Setting { integrator, timestep: s * timestep, solver: None })
         };
         let mut list: Vec<Setting> = named.into_iter().flat_map(steps).collect();
-        let mine = Setting { integrator: self.integrator, timestep, solver: None };
-        if !list.contains(&mine) {
-            list.push(mine);
+        let setting = Setting { integrator: self.integrator, timestep, solver: None };
+        if !list.contains(&setting) {
+            list.push(setting);
         }
-        let solver = |s: SolverVariation| Setting { solver: Some(s), ..mine };
+        let solver = |s: SolverVariation| Setting { solver: Some(s), ..setting };
         list.extend(options.axes.iter().flat_map(|axis| axis.values()).map(solver));
         list
     }

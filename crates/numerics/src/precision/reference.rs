@@ -63,18 +63,21 @@ fn direct(case: &PrecisionCase<'_>, timestep: f64) -> Result<Option<ReferenceSol
             step /= 4.0;
             continue;
         };
-        let mine = (integrator::RKMK8, step);
+        let method = (integrator::RKMK8, step);
         let current = match &first {
             Some((method_step, seen)) => {
-                let how = format!("{} and {}", in_words(*method_step), in_words(mine));
-                AgreeingRuns { reference: compare(seen.clone(), &second, how), methods: [*method_step, mine] }
+                let how = format!("{} and {}", in_words(*method_step), in_words(method));
+                AgreeingRuns {
+                    reference: compare(seen.clone(), &second, how),
+                    methods: [*method_step, method],
+                }
             }
             // Only one family succeeds: a run with half the step serves for comparison.
             None => {
                 let half = (integrator::RKMK8, step / 2.0);
                 let Some(finer) = run(case, half.0, half.1, RecordRequest::REFERENCE_REQUEST)? else { break };
                 let how = format!("{}, and at twice that", in_words(half));
-                AgreeingRuns { reference: compare(finer, &second, how), methods: [half, mine] }
+                AgreeingRuns { reference: compare(finer, &second, how), methods: [half, method] }
             }
         };
         let agreed = agrees(&current.reference);

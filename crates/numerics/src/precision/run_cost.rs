@@ -61,9 +61,9 @@ pub(super) fn measure(case: &PrecisionCase<'_>, settings: &[Option<Setting>]) ->
     }
     let middle = |mut times: Vec<f64>| {
         times.sort_by(f64::total_cmp);
-        let at = |i: usize| times.get(i).copied().unwrap_or(f64::NAN);
+        let time_at = |i: usize| times.get(i).copied().unwrap_or(f64::NAN);
         let n = times.len();
-        [at(n / 2), at(n / 4), at((3 * n) / 4)]
+        [time_at(n / 2), time_at(n / 4), time_at((3 * n) / 4)]
     };
     times.into_iter().map(middle).collect()
 }

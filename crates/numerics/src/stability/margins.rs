@@ -257,9 +257,10 @@ fn gains(m: &Model) -> Vec<RaisedParameter> {
         let (gain, bias) = if kp > 0.0 { (kp, 1) } else { (kv, 2) };
         let apply = move |m: &mut Model, x: f64| {
             let edit = m.edit();
-            for (list, at) in [(edit.actuator_gainprm, WIDTH * a), (edit.actuator_biasprm, WIDTH * a + bias)]
+            for (list, index) in
+                [(edit.actuator_gainprm, WIDTH * a), (edit.actuator_biasprm, WIDTH * a + bias)]
             {
-                if let Some(value) = list.get_mut(at) {
+                if let Some(value) = list.get_mut(index) {
                     *value *= x;
                 }
             }

@@ -22,25 +22,25 @@ pub(super) fn largest(
     mut fine: impl FnMut(f64) -> Option<bool>,
 ) -> Option<SearchLimit> {
     let (mut good, mut bad) = (None, None);
-    let mut at = 1.0;
-    if fine(at)? {
-        good = Some(at);
-        while bad.is_none() && at < most.min(MOST) {
-            at = (factor * at).min(most).min(MOST);
-            if fine(at)? {
-                good = Some(at);
+    let mut multiple = 1.0;
+    if fine(multiple)? {
+        good = Some(multiple);
+        while bad.is_none() && multiple < most.min(MOST) {
+            multiple = (factor * multiple).min(most).min(MOST);
+            if fine(multiple)? {
+                good = Some(multiple);
             } else {
-                bad = Some(at);
+                bad = Some(multiple);
             }
         }
     } else {
-        bad = Some(at);
-        while good.is_none() && at > 1.0 / MOST {
-            at /= factor;
-            if fine(at)? {
-                good = Some(at);
+        bad = Some(multiple);
+        while good.is_none() && multiple > 1.0 / MOST {
+            multiple /= factor;
+            if fine(multiple)? {
+                good = Some(multiple);
             } else {
-                bad = Some(at);
+                bad = Some(multiple);
             }
         }
     }

@@ -231,8 +231,8 @@ fn horizons(case: &StressCase<'_>, length: f64, work: &mut u64) -> Vec<Horizon> 
     let (second, _) = sample_readouts(PERTURBATION);
     let horizon = |(k, (readout, _)): (usize, &(&Readout, &Bound))| {
         let lost = |(a, b): (&Vec<f64>, &Vec<f64>)| (a[k] - b[k]).abs() > 0.5 * unit(a[k], readout.digits());
-        let at = first.iter().zip(&second).position(lost);
-        Horizon { label: readout.label.value.clone(), until: at.map(|i| i as f64 * between) }
+        let index = first.iter().zip(&second).position(lost);
+        Horizon { label: readout.label.value.clone(), until: index.map(|i| i as f64 * between) }
     };
     readouts.iter().enumerate().map(horizon).collect()
 }

@@ -230,13 +230,13 @@ fn runs(question: &str, lab: &Lab, stated: &[Stated], base: &TraceRun) -> Result
 fn states_other_change(question: &str, changed: &Mention<'_>, stated: &[Stated]) -> bool {
     let is_change = |pair: &[Stated]| {
         let [first, second] = pair else { return false };
-        let before = question.get(..first.at.min(question.len())).unwrap_or("").trim_end();
-        let between = question.get(first.at..second.at).unwrap_or("");
+        let before = question.get(..first.offset.min(question.len())).unwrap_or("").trim_end();
+        let between = question.get(first.offset..second.offset).unwrap_or("");
         let joins = before.ends_with("from") && contains_words(between, "to")
             || contains_words(between, "instead of");
         joins && first.dimension.agrees(&second.dimension)
     };
-    let owns = |s: &Stated| changed.values.iter().any(|(at, _)| *at == s.at);
+    let owns = |s: &Stated| changed.values.iter().any(|(offset, _)| *offset == s.offset);
     stated.windows(2).any(|pair| is_change(pair) && !pair.iter().all(owns))
 }
 
@@ -277,12 +277,12 @@ fn options(question: &str, control: &Control) -> Vec<(usize, Scalar)> {
         if !text.is_empty()
             && contains_words(question, text)
             && (!is_number || contains_words(question, &label))
-            && let Some(at) = question.find(text)
+            && let Some(offset) = question.find(text)
         {
-            all.push((at, choice.value.clone()));
+            all.push((offset, choice.value.clone()));
         }
     }
-    all.sort_by_key(|(at, _)| *at);
+    all.sort_by_key(|(offset, _)| *offset);
     all
 }
 
@@ -295,8 +295,8 @@ fn values(question: &str, changed: &Mention<'_>) -> Result<[Scalar; 2], String> 
             Some(value) => Ok([start(control), value.clone()]),
             None => changed_by_words(question, control).map(|after| [start(control), after]),
         },
-        [(at, first), (next, second)] => {
-            let between = question.get(*at..*next).unwrap_or("");
+        [(first_offset, first), (next, second)] => {
+            let between = question.get(*first_offset..*next).unwrap_or("");
             let is_reversed = contains_any(between, &["instead of", "than", "compared"]);
             Ok(if is_reversed { [second.clone(), first.clone()] } else { [first.clone(), second.clone()] })
         }
@@ -319,9 +319,9 @@ fn number(value: f64) -> Scalar {
 /// The values of a slider that a question states, with their places in it. A number that several sliders can have belongs to the
 /// one that the question names.
 fn numbers(question: &str, control: &Control, all: &[&Control], stated: &[Stated]) -> Vec<(usize, Scalar)> {
-    let Measure::Known(_) = given_by(control) else { return bare_numbers(question, control) };
+    let Measure::Dimension(_) = given_by(control) else { return bare_numbers(question, control) };
     let reached = |control: &Control, s: &Stated| {
-        let Measure::Known(unit) = given_by(control) else { return None };
+        let Measure::Dimension(unit) = given_by(control) else { return None };
         let x: f64 = format!("{:.12e}", si(s) * unit.factor).parse().unwrap_or(f64::NAN);
         settable(control, x).filter(|_| s.dimension.agrees(&unit))
     };
@@ -338,21 +338,22 @@ fn numbers(question: &str, control: &Control, all: &[&Control], stated: &[Stated
             Ordering::Less => false,
             // "5 kg on the left and 1 kg on the right": the label that is nearer.
             Ordering::Equal => {
-                distance(question, s.at, control, rival) < distance(question, s.at, rival, control)
+                distance(question, s.offset, control, rival) < distance(question, s.offset, rival, control)
             }
         })
     };
     let owned = stated.iter().filter(|s| is_owner(s));
-    owned.filter_map(|s| Some((s.at.min(question.len()), reached(control, s)?))).collect()
+    owned.filter_map(|s| Some((s.offset.min(question.len()), reached(control, s)?))).collect()
 }
 
 /// The distance of a place in a question from the nearest word of a label that another label does not have.
-fn distance(question: &str, at: usize, control: &Control, other: &Control) -> usize {
+fn distance(question: &str, offset: usize, control: &Control, other: &Control) -> usize {
     let words = |c: &Control| -> Vec<String> { split_words(&c.label.as_str().to_lowercase()).collect() };
     let others = words(other);
     let distinct = words(control).into_iter().filter(|w| !others.contains(w) && contains_words(question, w));
-    let places = distinct
-        .flat_map(|w| question.match_indices(w.as_str()).map(|(i, _)| i.abs_diff(at)).collect::<Vec<_>>());
+    let places = distinct.flat_map(|w| {
+        question.match_indices(w.as_str()).map(|(i, _)| i.abs_diff(offset)).collect::<Vec<_>>()
+    });
     places.min().unwrap_or(usize::MAX)
 }
 
@@ -362,12 +363,12 @@ fn bare_numbers(question: &str, control: &Control) -> Vec<(usize, Scalar)> {
     let label = control.label.as_str().to_lowercase();
     let name = label.split('(').next().unwrap_or(&label).trim();
     let found = question.find(name).filter(|_| !name.is_empty() && contains_words(question, name));
-    let Some(at) = found.map(|at| at + name.len()) else { return Vec::new() };
-    let rest = question.get(at..).unwrap_or("");
+    let Some(name_end) = found.map(|name_end| name_end + name.len()) else { return Vec::new() };
+    let rest = question.get(name_end..).unwrap_or("");
     let sentence = rest.find(". ").map_or(rest, |end| rest.get(..end).unwrap_or(rest));
     let from = sentence.find(" from ").unwrap_or(0);
     let mut all = Vec::new();
-    let mut place = at + from;
+    let mut place = name_end + from;
     for word in sentence.get(from..).unwrap_or("").split_whitespace() {
         let word = word.trim_end_matches([',', '.', '?', ';']);
         match word.parse::<f64>() {

@@ -47,14 +47,14 @@ const OVER: f64 = 1.0 + SAME;
 
 impl Condition {
     fn holds(&self, found: &[f64], broke: bool) -> bool {
-        let at = |i: usize| found.get(i).copied().unwrap_or(f64::NAN);
+        let value_of = |i: usize| found.get(i).copied().unwrap_or(f64::NAN);
         match self {
             Condition::Relation { relation, a, b, negated } => {
-                relation.holds(at(*a), at(*b), broke) != *negated
+                relation.holds(value_of(*a), value_of(*b), broke) != *negated
             }
             Condition::Extreme { which, among, largest } => {
-                let value = at(*which).abs();
-                among.iter().filter(|i| *i != which).map(|i| at(*i).abs()).all(|other| match largest {
+                let value = value_of(*which).abs();
+                among.iter().filter(|i| *i != which).map(|i| value_of(*i).abs()).all(|other| match largest {
                     true => value > OVER * other,
                     false => OVER * value < other,
                 })
@@ -311,8 +311,8 @@ impl<'t, 'l> RunTable<'t, 'l> {
     }
 
     fn found(&self, meaning: &Meaning, values: &[Vec<f64>]) -> Vec<f64> {
-        let at = |term: &Term| values.get(term.run).and_then(|v| v.get(term.candidate)).copied();
-        meaning.terms.iter().map(|term| at(term).unwrap_or(f64::NAN)).collect()
+        let value_of = |term: &Term| values.get(term.run).and_then(|v| v.get(term.candidate)).copied();
+        meaning.terms.iter().map(|term| value_of(term).unwrap_or(f64::NAN)).collect()
     }
 
     /// The meanings whose numbers exist and depend on the run.
@@ -347,9 +347,9 @@ impl<'t, 'l> RunTable<'t, 'l> {
             let Some(candidate) = self.candidate(term) else { return false };
             let extreme = candidate.text.strip_prefix("max").or_else(|| candidate.text.strip_prefix("min"));
             let inner = extreme.and_then(|inner| inner.strip_prefix('('));
-            let Some(at) = inner.and_then(|inner| self.tried.initial(inner)) else { return false };
+            let Some(initial) = inner.and_then(|inner| self.tried.initial(inner)) else { return false };
             let Some(values) = self.values.get(term.run) else { return false };
-            let [x, start] = [term.candidate, at].map(|i| values.get(i).copied().unwrap_or(f64::NAN));
+            let [x, start] = [term.candidate, initial].map(|i| values.get(i).copied().unwrap_or(f64::NAN));
             (x - start).abs() <= SAME * start.abs()
         };
         meaning.terms.iter().all(is_initial)

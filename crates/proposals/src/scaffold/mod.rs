@@ -226,17 +226,17 @@ pub fn written(lesson: &Lesson, all: &[Scaffold], names: &[String]) -> String {
         };
         let Some(object) = text.get(one.span.clone()) else { continue };
         let Some(inner) = object.strip_suffix('}') else { continue };
-        let at = one.span.start + inner.trim_end().len();
+        let offset = one.span.start + inner.trim_end().len();
         let line = text.get(..one.span.start).and_then(|t| t.rsplit('\n').next()).unwrap_or_default();
         let indent: String = line.chars().take_while(|c| c.is_whitespace()).collect();
         let step = indentation_step(&text, object, &indent);
         let comma = if inner.trim_end().ends_with([',', '{']) { "" } else { "," };
         let block = indented(&trace::format_verify(verify), &format!("{indent}{step}"), &step);
-        places.push((at, format!("{comma}\n{indent}{step}\"verify\": {block}")));
+        places.push((offset, format!("{comma}\n{indent}{step}\"verify\": {block}")));
     }
-    places.sort_by_key(|(at, _)| std::cmp::Reverse(*at));
-    for (at, block) in places {
-        text.insert_str(at, &block);
+    places.sort_by_key(|(offset, _)| std::cmp::Reverse(*offset));
+    for (offset, block) in places {
+        text.insert_str(offset, &block);
     }
     text
 }

@@ -197,11 +197,11 @@ impl Relation {
         let less = if most.is_some() && percent(text).is_some() && !is_own { usize::MAX } else { less };
         match same.min(more).min(less).min(gone).min(zero) {
             usize::MAX => None,
-            at if at == zero => Some(Relation::Nothing),
-            at if at == gone => Some(Relation::Gone),
+            first if first == zero => Some(Relation::Nothing),
+            first if first == gone => Some(Relation::Gone),
             // "just as", "as fast as before": the word of the quantity comes first.
-            at if at == same => Some(Relation::Same),
-            at => Some(if at == more { Relation::More(most) } else { Relation::Less(most) }),
+            first if first == same => Some(Relation::Same),
+            first => Some(if first == more { Relation::More(most) } else { Relation::Less(most) }),
         }
     }
 

@@ -3,9 +3,9 @@
 /// Whether a text contains words, as whole words.
 pub(super) fn contains_words(text: &str, words: &str) -> bool {
     let part = |c: char| c.is_alphanumeric();
-    text.match_indices(words).any(|(at, _)| {
-        let before = text.get(..at).and_then(|t| t.chars().next_back());
-        let after = text.get(at + words.len()..).and_then(|t| t.chars().next());
+    text.match_indices(words).any(|(start, _)| {
+        let before = text.get(..start).and_then(|t| t.chars().next_back());
+        let after = text.get(start + words.len()..).and_then(|t| t.chars().next());
         !before.is_some_and(part) && !after.is_some_and(part)
     })
 }

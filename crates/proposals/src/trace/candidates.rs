@@ -149,7 +149,7 @@ fn displayed_numbers(lab: &Lab, model: &Model, programs: &Programs) -> Vec<Displ
         let Some(bound) = &probe.bound else { continue };
         let label = labels.iter().find_map(|l| of_label(l.as_str()));
         let dimension = measured.as_ref().and_then(|m| match m.value {
-            Measure::Known(d) if d.factor.is_finite() && d.factor != 0.0 => Some(d),
+            Measure::Dimension(d) if d.factor.is_finite() && d.factor != 0.0 => Some(d),
             _ => None,
         });
         let Some(dimension) = label.map(|(_, d)| d).or(dimension) else { continue };

@@ -10,7 +10,7 @@ pub(super) struct Binding {
     /// In SI units.
     value: f64,
     /// The position in the file.
-    at: usize,
+    offset: usize,
 }
 
 /// A formula in the language of labs, with its value in SI units.
@@ -33,7 +33,7 @@ pub(super) fn bindings(numbers: &[Stated]) -> Vec<Binding> {
         let mut parts = chain(s)?.into_iter().map(|part| tokens(&part));
         let first = parts.find(|all| has_words(all) || all.len() == 1)?;
         let Some(FormulaToken::Symbol(name)) = first.last().cloned() else { return None };
-        Some(Binding { name, value: si(s), at: s.span.start })
+        Some(Binding { name, value: si(s), offset: s.span.start })
     };
     numbers.iter().filter_map(one).collect()
 }
@@ -45,9 +45,9 @@ pub(super) fn before(s: &Stated, bindings: &[Binding]) -> Option<EvaluatedFormul
         // Words may precede the formula: the longest suffix that is a formula is used.
         let found = (0..all.len()).find_map(|from| {
             let mut parser =
-                FormulaParser { tokens: all.get(from..)?, at: 0, deep: 0, operations: 0, s, bindings };
+                FormulaParser { tokens: all.get(from..)?, next: 0, deep: 0, operations: 0, s, bindings };
             let worked = parser.sum()?;
-            let whole = parser.at == parser.tokens.len() && parser.operations > 0;
+            let whole = parser.next == parser.tokens.len() && parser.operations > 0;
             whole.then_some(worked)
         });
         if found.is_some() {
@@ -68,7 +68,7 @@ fn has_words(all: &[FormulaToken]) -> bool {
 
 /// The parts between the equality signs before a number, the nearest first, or `None` if there is no such sign.
 fn chain(s: &Stated) -> Option<Vec<String>> {
-    let text = s.paragraph.get(..s.at)?;
+    let text = s.paragraph.get(..s.offset)?;
     let mut from = text.len().saturating_sub(LONG);
     while !text.is_char_boundary(from) {
         from += 1;
@@ -95,12 +95,12 @@ enum FormulaToken {
 /// The last tokens of a text.
 fn tokens(text: &str) -> Vec<FormulaToken> {
     let chars: Vec<char> = text.chars().collect();
-    let at = |i: usize| chars.get(i).copied();
+    let char_at = |i: usize| chars.get(i).copied();
     let mut all = Vec::new();
     let mut i = 0;
-    while let Some(c) = at(i) {
+    while let Some(c) = char_at(i) {
         let run = |from: usize, test: &dyn Fn(char) -> bool| {
-            (from..).take_while(|k| at(*k).is_some_and(test)).count()
+            (from..).take_while(|k| char_at(*k).is_some_and(test)).count()
         };
         match c {
             '0'..='9' => {
@@ -204,7 +204,7 @@ fn symbol(chars: &[char], i: &mut usize, mut name: String, length: usize, all: &
 
 struct FormulaParser<'a> {
     tokens: &'a [FormulaToken],
-    at: usize,
+    next: usize,
     deep: usize,
     operations: usize,
     s: &'a Stated,
@@ -213,8 +213,8 @@ struct FormulaParser<'a> {
 
 impl FormulaParser<'_> {
     fn sign(&mut self, c: char) -> bool {
-        let there = self.tokens.get(self.at) == Some(&FormulaToken::Sign(c));
-        self.at += usize::from(there);
+        let there = self.tokens.get(self.next) == Some(&FormulaToken::Sign(c));
+        self.next += usize::from(there);
         there
     }
 
@@ -254,7 +254,7 @@ impl FormulaParser<'_> {
                 };
             } else {
                 let written = self.sign('*');
-                let begins = match self.tokens.get(self.at) {
+                let begins = match self.tokens.get(self.next) {
                     Some(FormulaToken::Number(..)) => written,
                     Some(
                         FormulaToken::Symbol(_) | FormulaToken::Command(_) | FormulaToken::Sign('(' | '{'),
@@ -295,8 +295,8 @@ impl FormulaParser<'_> {
     }
 
     fn atom(&mut self) -> Option<EvaluatedFormula> {
-        let token = self.tokens.get(self.at)?;
-        self.at += 1;
+        let token = self.tokens.get(self.next)?;
+        self.next += 1;
         match token {
             FormulaToken::Number(value, code) => Some(EvaluatedFormula { code: code.clone(), value: *value }),
             FormulaToken::Symbol(name) => self.bound(name),
@@ -338,22 +338,24 @@ impl FormulaParser<'_> {
     /// Whether the exponent −1 of an inverse function follows: `\tan^{-1} 0.6`.
     fn inverse(&mut self) -> bool {
         use FormulaToken::{Number, Sign};
-        let rest = self.tokens.get(self.at..).unwrap_or_default();
+        let rest = self.tokens.get(self.next..).unwrap_or_default();
         let length = match rest {
             [Sign('^'), Sign('{'), Sign('-'), Number(one, _), Sign('}'), ..] if *one == 1.0 => 5,
             [Sign('^'), Sign('-'), Number(one, _), ..] if *one == 1.0 => 3,
             _ => 0,
         };
-        self.at += length;
+        self.next += length;
         length > 0
     }
 
     /// The value of a symbol: the last one in the text before the number, otherwise the first one after it.
     fn bound(&self, name: &str) -> Option<EvaluatedFormula> {
         let here = self.s.span.start;
-        let bound = || self.bindings.iter().filter(|b| b.name == name && b.at != here);
-        let found =
-            bound().filter(|b| b.at < here).max_by_key(|b| b.at).or_else(|| bound().min_by_key(|b| b.at));
+        let bound = || self.bindings.iter().filter(|b| b.name == name && b.offset != here);
+        let found = bound()
+            .filter(|b| b.offset < here)
+            .max_by_key(|b| b.offset)
+            .or_else(|| bound().min_by_key(|b| b.offset));
         let constant = match name {
             "pi" | "π" => Some(("Math.PI".to_string(), std::f64::consts::PI)),
             "e" => Some(("Math.E".to_string(), std::f64::consts::E)),
@@ -383,18 +385,18 @@ mod tests {
     use labspec_expr::dimension::Dimension;
     use std::sync::Arc;
 
-    fn stated(text: &str, number: &str, at: usize) -> Option<Stated> {
+    fn stated(text: &str, number: &str, offset: usize) -> Option<Stated> {
         let read = labspec::verify::quoted(number).ok()?;
         Some(Stated {
             quote: number.into(),
-            span: at..at + 1,
+            span: offset..offset + 1,
             read,
             unit: String::new(),
             dimension: Dimension::NUMBER,
             context: String::new(),
             column: String::new(),
             paragraph: Arc::from(text),
-            at: text.rfind(number)?,
+            offset: text.rfind(number)?,
             bound: false,
             answer: false,
         })
@@ -405,7 +407,7 @@ mod tests {
             [("d", 0.95), ("g", 9.81), ("h", 0.005), ("t", 0.5), ("v_0", 4.3), ("z_0", 1.0), ("r", 0.05)];
         let bindings: Vec<Binding> = bindings
             .iter()
-            .map(|(name, value)| Binding { name: (*name).into(), value: *value, at: 0 })
+            .map(|(name, value)| Binding { name: (*name).into(), value: *value, offset: 0 })
             .collect();
         before(&stated(text, number, 9)?, &bindings).map(|w| w.value)
     }

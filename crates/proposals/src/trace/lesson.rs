@@ -42,7 +42,7 @@ pub fn trace<'l>(lesson: &'l Lesson, models: &Models, report_progress: &mut dyn 
     let bindings = bindings(&numbers);
     let claimed: Vec<Range<usize>> = claimed(lesson).into_iter().chain(answered(lesson)).collect();
     let origin_of = |s: &Stated| match interrupt::requested() {
-        _ if claimed.iter().any(|at| at.start < s.span.end && s.span.start < at.end) => Origin::Claimed,
+        _ if claimed.iter().any(|span| span.start < s.span.end && s.span.start < span.end) => Origin::Claimed,
         true => Origin::Unknown,
         false => rank::origin(s, &numbers, &labs, &bindings, &rank::Siblings::default()),
     };
@@ -123,10 +123,10 @@ fn mark_unsteady(numbers: &[Stated], origins: &mut [Origin], labs: &[TracedLab<'
         let moved = again.entry((l, t)).or_insert_with(|| {
             [PERTURBED_START, PERTURBED_BACK, HALVED].map(|numerics| tried.values_of(trial, stage, numerics))
         });
-        let Some(at) = tried.candidates.iter().position(|c| c.text == hit.measure) else { continue };
-        let Some(nominal) = tried.values.get(t).and_then(|v| v.get(at)) else { continue };
+        let Some(index) = tried.candidates.iter().position(|c| c.text == hit.measure) else { continue };
+        let Some(nominal) = tried.values.get(t).and_then(|v| v.get(index)) else { continue };
         let differs = |other: &Vec<f64>| {
-            other.get(at).is_some_and(|x| s.read.differ(hit.value, hit.value * x / nominal))
+            other.get(index).is_some_and(|x| s.read.differ(hit.value, hit.value * x / nominal))
         };
         let [moves, back, halves] = moved.each_ref().map(differs);
         hit.fragile = halves;

@@ -237,8 +237,8 @@ fn is_beside(siblings: &Siblings<'_>, run: (usize, usize), measure: &str) -> boo
 
 /// Whether the words between two numbers contrast them.
 fn are_contrasted(a: &Stated, b: &Stated) -> bool {
-    let (first, second) = if a.at < b.at { (a, b) } else { (b, a) };
-    let between = first.paragraph.get(first.at..second.at).unwrap_or("");
+    let (first, second) = if a.offset < b.offset { (a, b) } else { (b, a) };
+    let between = first.paragraph.get(first.offset..second.offset).unwrap_or("");
     let number = |c: char| c.is_ascii_digit() || matches!(c, '.' | ',' | '-' | '−' | ' ');
     let words = between.trim_start_matches(number);
     let words =
@@ -270,16 +270,16 @@ pub(super) fn compare_contrasts(
             b.paragraph == a.paragraph && b.dimension.agrees(&a.dimension) && are_contrasted(a, b)
         };
         let Some((j, b)) = numbers.iter().enumerate().skip(i + 1).find(contrasted) else { continue };
-        let open = |at: usize| {
-            matches!(origins.get(at), Some(Origin::From(_) | Origin::Chance(_) | Origin::Unknown))
+        let open = |index: usize| {
+            matches!(origins.get(index), Some(Origin::From(_) | Origin::Chance(_) | Origin::Unknown))
         };
         if !open(i) || !open(j) {
             continue;
         }
         let Some(measure) = measure_of_both([a, b], numbers, labs) else { continue };
         let siblings = Siblings { all: Vec::new(), contrasted: Some(&measure) };
-        for (at, s) in [(i, a), (j, b)] {
-            if let Some(origin) = origins.get_mut(at) {
+        for (index, s) in [(i, a), (j, b)] {
+            if let Some(origin) = origins.get_mut(index) {
                 *origin = self::origin(s, numbers, labs, bindings, &siblings);
             }
         }
@@ -370,8 +370,8 @@ fn object(s: &Stated, labs: &[TracedLab<'_>]) -> Option<String> {
     let is_property = ["m", "kg"]
         .iter()
         .any(|unit| labspec_bind::units::parse(unit).is_some_and(|dimension| dimension.agrees(&s.dimension)));
-    let (before, rest) = (s.paragraph.get(..s.at)?, s.paragraph.get(s.at..)?);
-    let after = rest.find(s.unit.as_str()).and_then(|at| rest.get(at + s.unit.len()..)).unwrap_or("");
+    let (before, rest) = (s.paragraph.get(..s.offset)?, s.paragraph.get(s.offset..)?);
+    let after = rest.find(s.unit.as_str()).and_then(|start| rest.get(start + s.unit.len()..)).unwrap_or("");
     let next = after.strip_prefix(' ').and_then(|after| after.split(|c: char| !c.is_alphanumeric()).next());
     let of = before
         .trim_end()
@@ -558,7 +558,7 @@ struct NumberContext<'n> {
     paragraph: Vec<&'n Stated>,
     near: Vec<&'n Stated>,
     /// The place of the number in the file.
-    at: usize,
+    offset: usize,
 }
 
 impl<'n> NumberContext<'n> {
@@ -576,7 +576,7 @@ impl<'n> NumberContext<'n> {
             beside,
             paragraph,
             near,
-            at: s.span.start,
+            offset: s.span.start,
         }
     }
 
@@ -632,7 +632,7 @@ impl<'n> NumberContext<'n> {
                 () if self.near.iter().any(|n| is(&n)) => {
                     let away = |x: f64| {
                         let named = self.near.iter().filter(|n| n.dimension.agrees(&unit) && close(si(n), x));
-                        named.map(|n| n.span.start.abs_diff(self.at)).min().unwrap_or(usize::MAX)
+                        named.map(|n| n.span.start.abs_diff(self.offset)).min().unwrap_or(usize::MAX)
                     };
                     let nearer = others().any(|other| away(other) < away(x));
                     FAR_COST + if nearer { NAMED_NEARER } else { 0.0 }
@@ -661,7 +661,7 @@ impl<'n> NumberContext<'n> {
     fn slider(&self, s: &Stated, labs: &[TracedLab<'_>]) -> Option<String> {
         let controls = labs.iter().flat_map(|tried| &tried.lab.controls);
         controls.into_iter().find_map(|control| {
-            let Measure::Known(unit) = given_by(control) else { return None };
+            let Measure::Dimension(unit) = given_by(control) else { return None };
             let x = round(si(s) * unit.factor);
             let ControlKind::Slider { .. } = &control.kind else { return None };
             let fits = s.dimension.agrees(&unit) && settings::value(control, &Value::Number(x)).is_ok();

@@ -14,8 +14,8 @@ const CHANGED: usize = 8;
 /// The runs of a lab, followed by the first one and those with a button, with the model as in its file.
 pub(super) fn with(mut all: Vec<TraceRun>, lab: &Lab, model: &Model, programs: &Programs) -> Vec<TraceRun> {
     let Some(statements) = statements(lab, model, programs) else { return all };
-    let again = |(at, trial): (usize, &TraceRun)| {
-        (at == 0 || !trial.press.is_empty()).then(|| TraceRun {
+    let again = |(index, trial): (usize, &TraceRun)| {
+        (index == 0 || !trial.press.is_empty()).then(|| TraceRun {
             words: format!("{}, with the model as in its file", trial.words),
             name: format!("{}_of_file", trial.name),
             restored: Some(statements.clone()),
@@ -76,6 +76,6 @@ fn of_model(field: Option<FieldId>) -> bool {
 fn element(field: FieldId, index: usize) -> String {
     let info = field.info();
     let object = if info.object == Object::Option { "model.opt" } else { "model" };
-    let at = if info.shape.is_empty() { String::new() } else { format!("[{index}]") };
-    format!("{object}.{}{at}", info.name)
+    let suffix = if info.shape.is_empty() { String::new() } else { format!("[{index}]") };
+    format!("{object}.{}{suffix}", info.name)
 }

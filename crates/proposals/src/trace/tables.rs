@@ -93,7 +93,7 @@ fn of_lab(
     let mut all: Vec<TracedTable> = Vec::new();
     for (k, head) in table.head.iter().enumerate().skip(1) {
         let run = chosen(&base, tried, head);
-        let at = all.iter().position(|t| t.run.set == run.set).unwrap_or_else(|| {
+        let index = all.iter().position(|t| t.run.set == run.set).unwrap_or_else(|| {
             all.push(TracedTable {
                 lab,
                 by: table.head.first().cloned().unwrap_or_default(),
@@ -108,7 +108,7 @@ fn of_lab(
             .iter()
             .map(|x| tried.values_of(&with(&run, control, *x), stage, StepVariant::NOMINAL))
             .collect();
-        let Some(entry) = all.get_mut(at) else { continue };
+        let Some(entry) = all.get_mut(index) else { continue };
         // Two columns show two quantities.
         let used: Vec<&str> = entry.columns.iter().map(|column| column.measure.as_str()).collect();
         let free: Vec<(usize, &Candidate)> =
@@ -129,10 +129,10 @@ fn swept<'l>(table: &MarkdownTable, tried: &TracedLab<'l>) -> Option<(&'l Contro
     let is_named = |control: &&Control| {
         let label = name_words(control.label.as_str());
         let same_unit = match (given_by(control), &unit) {
-            (Measure::Known(slider_unit), Some(unit)) => {
+            (Measure::Dimension(slider_unit), Some(unit)) => {
                 slider_unit.agrees(unit) && slider_unit.factor == unit.factor
             }
-            (Measure::Known(_), None) => false,
+            (Measure::Dimension(_), None) => false,
             (_, unit) => unit.is_none(),
         };
         matches!(control.kind, ControlKind::Slider { .. })
@@ -222,7 +222,7 @@ fn column(
 /// The tables of a text, outside of fences.
 fn markdown_tables(text: &str) -> Vec<MarkdownTable> {
     let mut all: Vec<MarkdownTable> = Vec::new();
-    let (mut at, mut is_fenced, mut before): (usize, bool, Option<&str>) = (0, false, None);
+    let (mut offset, mut is_fenced, mut before): (usize, bool, Option<&str>) = (0, false, None);
     let mut is_inside = false;
     for line in text.split_inclusive('\n') {
         let trimmed = line.trim();
@@ -235,28 +235,28 @@ fn markdown_tables(text: &str) -> Vec<MarkdownTable> {
         }
         if is_rule {
             let head = before.map_or(Vec::new(), |head| cells(head, 0).into_iter().map(|c| c.text).collect());
-            all.push(MarkdownTable { head, rows: Vec::new(), start: at });
+            all.push(MarkdownTable { head, rows: Vec::new(), start: offset });
         } else if is_row
             && is_inside
             && let Some(table) = all.last_mut()
         {
-            table.rows.push(cells(line, at));
+            table.rows.push(cells(line, offset));
         }
         is_inside = is_row && (is_rule || is_inside);
         before = is_row.then_some(line);
-        at += line.len();
+        offset += line.len();
     }
     all
 }
 
 /// The cells of a line that begins at this place.
-fn cells(line: &str, at: usize) -> Vec<Cell> {
+fn cells(line: &str, offset: usize) -> Vec<Cell> {
     let mut all = Vec::new();
     let mut from = 0;
     for part in line.split('|') {
         let start = from + (part.len() - part.trim_start().len());
         let text = part.trim().to_string();
-        all.push(Cell { span: at + start..at + start + text.len(), text });
+        all.push(Cell { span: offset + start..offset + start + text.len(), text });
         from += part.len() + 1;
     }
     // The line begins and ends with a bar.

@@ -95,7 +95,7 @@ fn add_control_trials(control: &Control, numbers: &[Stated], base: &TraceRun, al
     let label = control.label.as_str();
     match &control.kind {
         ControlKind::Slider { value: start, .. } => {
-            let Measure::Known(unit) = given_by(control) else { return };
+            let Measure::Dimension(unit) = given_by(control) else { return };
             let mut values: Vec<f64> = Vec::new();
             for s in numbers.iter().filter(|s| s.dimension.agrees(&unit)) {
                 let x = round(si(s) * unit.factor);

@@ -116,8 +116,9 @@ fn fix(ask: &Ask, asked: &RequestedLesson<'_>, backend: &dyn Backend) -> Result<
 fn propose(ask: &Ask, asked: &RequestedLesson<'_>, backend: &dyn Backend) -> Result<Value, Refused> {
     let block = block_span(ask, asked)?;
     let blocks = &asked.served.blocks;
-    let is_here =
-        |span: &Range<usize>| block_at(blocks, span.start).and_then(|at| blocks.get(at)) == Some(&block);
+    let is_here = |span: &Range<usize>| {
+        block_at(blocks, span.start).and_then(|index| blocks.get(index)) == Some(&block)
+    };
     let proposals = asked.served.proposals.get_or_init(|| backend.propose(&asked.served.path, asked.lesson));
     let verify = proposals.verify.iter().enumerate().filter(|(_, one)| is_here(&one.span));
     let mut all: Vec<Value> = verify

@@ -35,8 +35,9 @@ pub(super) struct AuthorView<'v> {
 }
 
 /// The block that a byte of the file belongs to: the one around it, else the next one, else the last.
-pub(super) fn block_at(blocks: &[Range<usize>], at: usize) -> Option<usize> {
-    let next = blocks.partition_point(|span| span.end <= at && !(span.start <= at && at < span.end));
+pub(super) fn block_at(blocks: &[Range<usize>], offset: usize) -> Option<usize> {
+    let next =
+        blocks.partition_point(|span| span.end <= offset && !(span.start <= offset && offset < span.end));
     if next < blocks.len() { Some(next) } else { blocks.len().checked_sub(1) }
 }
 
@@ -59,7 +60,7 @@ impl AuthorView<'_> {
         let mut loose = String::new();
         for (number, finding) in self.findings.iter().enumerate() {
             let note = self.finding(number, finding);
-            match block_at(&spans, finding.span.start).and_then(|at| notes.get_mut(at)) {
+            match block_at(&spans, finding.span.start).and_then(|index| notes.get_mut(index)) {
                 Some(notes) => notes.push_str(&note),
                 None => loose.push_str(&note),
             }
@@ -104,7 +105,7 @@ impl AuthorView<'_> {
         let others = self.course.findings.iter().filter(|f| !is_lesson(&f.path));
         let others: String = others
             .map(|f| {
-                let line = f.position.map_or(String::new(), |at| format!(", line {}", at.line));
+                let line = f.position.map_or(String::new(), |position| format!(", line {}", position.line));
                 let file = f.path.rsplit(['/', '\\']).next().unwrap_or("");
                 format!(
                     "<li class=\"{}\"><p>{}{line}: {}</p></li>",
@@ -125,7 +126,7 @@ impl AuthorView<'_> {
         let is_fence = matches!(*kind, "lab" | "quiz");
         let key = if is_fence { content.split('"').nth(1).unwrap_or("") } else { "" };
         let same = if *kind == "text" { "" } else { content.as_str() };
-        let line = |at: usize| self.checked.lesson.file.position(at).line;
+        let line = |offset: usize| self.checked.lesson.file.position(offset).line;
         let last = span.end.saturating_sub(usize::from(text.ends_with('\n')));
         let lines = match (line(span.start), line(last)) {
             (first, last) if first == last => format!("line {first}"),
@@ -152,7 +153,7 @@ impl AuthorView<'_> {
     }
 
     fn finding(&self, number: usize, f: &Finding) -> String {
-        let at = self.checked.lesson.file.position(f.span.start);
+        let position = self.checked.lesson.file.position(f.span.start);
         let mut out = format!(
             "<li class=\"{}\"><p><b>{}</b> <code>{}</code> <small>line {}</small></p><p>{}</p>",
             f.severity.as_str(),
@@ -162,7 +163,7 @@ impl AuthorView<'_> {
                 Severity::Note => "i note",
             },
             escape(f.code),
-            at.line,
+            position.line,
             escape(&f.message)
         );
         for (word, text) in [("Why", &f.why), ("Help", &f.help)] {
@@ -200,8 +201,8 @@ impl AuthorView<'_> {
         for entry in
             entries.filter(|e| e.path == *path && !matches!(e.subject, Subject::File | Subject::Widget))
         {
-            if let Some(at) = block_at(spans, entry.span.start)
-                && let Some(of_block) = of_block.get_mut(at)
+            if let Some(index) = block_at(spans, entry.span.start)
+                && let Some(of_block) = of_block.get_mut(index)
             {
                 of_block.push(entry);
             }
@@ -212,9 +213,9 @@ impl AuthorView<'_> {
             }
         }
         for stated in verify::counted(&self.checked.lesson).left {
-            let Some(at) = block_at(spans, stated.span.start) else { continue };
-            let is_fence = self.page.blocks.get(at).is_some_and(|block| block.kind != "text");
-            if let Some(notes) = notes.get_mut(at).filter(|_| is_fence) {
+            let Some(index) = block_at(spans, stated.span.start) else { continue };
+            let is_fence = self.page.blocks.get(index).is_some_and(|block| block.kind != "text");
+            if let Some(notes) = notes.get_mut(index).filter(|_| is_fence) {
                 let _ = write!(
                     notes,
                     "<li class=\"claim-none\"><p>○ no claim states <b>{}</b></p></li>",

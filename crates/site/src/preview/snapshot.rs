@@ -110,7 +110,7 @@ impl Snapshot {
         problem: Option<&str>,
     ) {
         let course = self.course.clone();
-        for (at, (page, index)) in written.pages.iter().zip(&written.lessons).enumerate() {
+        for (position, (page, index)) in written.pages.iter().zip(&written.lessons).enumerate() {
             let Some(checked) = course.lessons.get(*index) else { continue };
             let Some((path, _)) = &checked.lesson.place else { continue };
             let of_lesson = |f: &&Finding| f.path == *checked.lesson.file.path();
@@ -125,7 +125,7 @@ impl Snapshot {
                 has_math: page.has_math,
                 attributes: view.attributes(),
                 main: view.main(),
-                neighbours: neighbours(&written.pages, at),
+                neighbours: neighbours(&written.pages, position),
                 head: head(material.token, self.version),
                 ..Page::default()
             };

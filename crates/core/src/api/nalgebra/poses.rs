@@ -26,7 +26,7 @@ fn by_quaternion(positions: &[f64], quaternions: &[f64], id: usize) -> Result<Is
     let quaternion = rows::<4>(quaternions).get(id).map(|&[w, x, y, z]| Quaternion::new(w, x, y, z));
     let unit = quaternion.filter(|q| (q.norm_squared() - 1.0).abs() < UNIT);
     let parts = position(positions, id).zip(unit.map(UnitQuaternion::new_unchecked));
-    parts.map(|(at, turn)| Isometry3::from_parts(at, turn)).ok_or_else(not_computed)
+    parts.map(|(origin, turn)| Isometry3::from_parts(origin, turn)).ok_or_else(not_computed)
 }
 
 fn by_matrix(positions: &[f64], matrices: &[f64], id: usize) -> Result<Isometry3<f64>, Error> {
@@ -34,7 +34,7 @@ fn by_matrix(positions: &[f64], matrices: &[f64], id: usize) -> Result<Isometry3
     let rotation = matrix.filter(|r| (r.norm_squared() / 3.0 - 1.0).abs() < UNIT);
     let unit = rotation.map(|r| UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(r)));
     let parts = position(positions, id).zip(unit);
-    parts.map(|(at, turn)| Isometry3::from_parts(at, turn)).ok_or_else(not_computed)
+    parts.map(|(origin, turn)| Isometry3::from_parts(origin, turn)).ok_or_else(not_computed)
 }
 
 impl<S: Scope> Data<S> {

@@ -97,8 +97,8 @@ impl ActuatorCheck<'_, '_> {
         let input_range = if a.dyntype == dyntype::INTEGRATOR { &a.act } else { &a.ctrl };
         // If a range is given as well, an error is reported where the range is read.
         let Some(target) = a.transmission.filter(|_| servo && input_range.range == [0.0; 2]) else { return };
-        let at = usize::try_from(target.id[0]).unwrap_or(usize::MAX);
-        let joints = || bodies.iter().flat_map(|b| &b.joints).nth(at);
+        let index = usize::try_from(target.id[0]).unwrap_or(usize::MAX);
+        let joints = || bodies.iter().flat_map(|b| &b.joints).nth(index);
         let scalar = |j: &JointSpec| matches!(j.kind, joint::SLIDE | joint::HINGE);
         let (limited, [lower, upper]) = match target.kind {
             trntype::JOINT | trntype::JOINTINPARENT => match joints() {
@@ -109,7 +109,7 @@ impl ActuatorCheck<'_, '_> {
                     return;
                 }
             },
-            trntype::TENDON => tendons.get(at).map_or((false, [0.0; 2]), |t| (t.limited, t.range)),
+            trntype::TENDON => tendons.get(index).map_or((false, [0.0; 2]), |t| (t.limited, t.range)),
             _ => {
                 self.error("inheritrange", "has `inheritrange` and acts on neither a joint nor a tendon")
                     .why("there is no range to inherit");

@@ -53,9 +53,9 @@ fn samples(a: &ActuatorSpec) -> usize {
 fn addresses(array: &mut Vec<i32>, list: &[ActuatorSpec], size: fn(&ActuatorSpec) -> usize, always: bool) {
     let mut next = 0;
     flat(array, list, |a| {
-        let at = if size(a) == 0 && !always { -1 } else { next as i32 };
+        let address = if size(a) == 0 && !always { -1 } else { next as i32 };
         next += size(a);
-        [at]
+        [address]
     });
 }
 

@@ -58,11 +58,11 @@ pub(crate) fn meshes(m: &mut Model, assets: &Assets) {
     let graphs = counts(graph_len);
     m.mesh_graphadr = addresses(graphs.iter().copied());
     // The address of an empty list is -1.
-    for (at, n) in m.mesh_texcoordadr.iter_mut().zip(&m.mesh_texcoordnum) {
-        *at = if *n == 0 { -1 } else { *at };
+    for (address, n) in m.mesh_texcoordadr.iter_mut().zip(&m.mesh_texcoordnum) {
+        *address = if *n == 0 { -1 } else { *address };
     }
-    for (at, n) in m.mesh_graphadr.iter_mut().zip(graphs) {
-        *at = if n == 0 { -1 } else { *at };
+    for (address, n) in m.mesh_graphadr.iter_mut().zip(graphs) {
+        *address = if n == 0 { -1 } else { *address };
     }
     m.mesh_vert = listed(list.iter().flat_map(|x| single(&x.shape.vert)));
     m.mesh_normal = listed(list.iter().flat_map(|x| single(&x.shape.normal)));
@@ -110,8 +110,8 @@ pub(crate) fn skins(m: &mut Model, assets: &Assets) {
     m.skin_vertadr = addresses(list.iter().map(|s| s.vert.len()));
     flat(&mut m.skin_vertnum, &list, |s| [s.vert.len() as i32]);
     m.skin_texcoordadr = addresses(list.iter().map(|s| s.texcoord.len()));
-    for (at, s) in m.skin_texcoordadr.iter_mut().zip(&list) {
-        *at = if s.texcoord.is_empty() { -1 } else { *at };
+    for (address, s) in m.skin_texcoordadr.iter_mut().zip(&list) {
+        *address = if s.texcoord.is_empty() { -1 } else { *address };
     }
     m.skin_faceadr = addresses(list.iter().map(|s| s.face.len()));
     flat(&mut m.skin_facenum, &list, |s| [s.face.len() as i32]);

@@ -62,11 +62,11 @@ impl Header {
     /// The first sample of pixel `x` of a row, scaled to 8 bits: the upper byte of 16 bits; fewer bits are scaled to the full
     /// range.
     fn first(&self, row: &[u8], x: usize, palette: &[u8]) -> u8 {
-        let at = x * self.bits();
-        let byte = row.get(at / 8).copied().unwrap_or(0);
+        let bit = x * self.bits();
+        let byte = row.get(bit / 8).copied().unwrap_or(0);
         let most = if self.depth < 8 { (1 << self.depth) - 1 } else { 255 };
         let sample =
-            if self.depth < 8 { byte >> (8 - usize::from(self.depth) - at % 8) & most } else { byte };
+            if self.depth < 8 { byte >> (8 - usize::from(self.depth) - bit % 8) & most } else { byte };
         match self.color {
             // A palette may be incomplete; missing colours are black.
             INDEXED => palette.get(3 * usize::from(sample)).copied().unwrap_or(0),

@@ -90,13 +90,13 @@ fn every_kind_is_read_as_by_the_package() {
 
 /// The same file with correct checksums, as far as its chunks are complete.
 fn with_checksums(mut bytes: Vec<u8>) -> Vec<u8> {
-    let mut at = SIGNATURE.len();
-    while let Some(length) = bytes.get(at..).and_then(|b| b.first_chunk()) {
-        let end = at + 8 + u32::from_be_bytes(*length) as usize;
-        let Some(sum) = bytes.get(at + 4..end).map(crc) else { break };
+    let mut offset = SIGNATURE.len();
+    while let Some(length) = bytes.get(offset..).and_then(|b| b.first_chunk()) {
+        let end = offset + 8 + u32::from_be_bytes(*length) as usize;
+        let Some(sum) = bytes.get(offset + 4..end).map(crc) else { break };
         let Some(place) = bytes.get_mut(end..end + 4) else { break };
         place.copy_from_slice(&sum.to_be_bytes());
-        at = end + 4;
+        offset = end + 4;
     }
     bytes
 }
@@ -114,12 +114,12 @@ fn damaged_pictures_are_read_as_by_the_package() {
         (None, None) => {}
     };
     each_kind(&[[5, 6]], |bytes| {
-        for at in 0..bytes.len() {
-            compare(&bytes[..at], &format!("{at} of {}", bytes.len()));
+        for offset in 0..bytes.len() {
+            compare(&bytes[..offset], &format!("{offset} of {}", bytes.len()));
             for change in [1, 0x20, 0x80, 0xff] {
                 let mut damaged = bytes.clone();
-                damaged[at] ^= change;
-                let what = format!("{change} at {at} of {}", bytes.len());
+                damaged[offset] ^= change;
+                let what = format!("{change} at {offset} of {}", bytes.len());
                 compare(&damaged, &what);
                 compare(&with_checksums(damaged), &what);
             }

@@ -68,7 +68,7 @@ impl Assets {
     ) -> Assets {
         let mut assets = Assets::default();
         let mut reader = AssetReader { parts, files, left: MOST, report };
-        for (_, node) in tree.sections("asset").flat_map(|(at, _)| tree.children(at)) {
+        for (_, node) in tree.sections("asset").flat_map(|(index, _)| tree.children(index)) {
             if reader.report.is_full() {
                 break;
             }
@@ -99,9 +99,9 @@ impl Assets {
             assets.ids.entry((node.element.name, name)).or_insert(id);
         }
         let sections = tree.sections("asset").chain(tree.sections("deformable"));
-        for (at, node) in sections.flat_map(|(at, _)| tree.children(at)) {
+        for (index, node) in sections.flat_map(|(index, _)| tree.children(index)) {
             if node.element.name == "skin" && !reader.report.is_full() {
-                let value = reader.skin(tree, at, node);
+                let value = reader.skin(tree, index, node);
                 assets.skins.push(Asset { name: name(node), span: node.span.clone(), value });
             }
         }
@@ -354,7 +354,7 @@ impl AssetReader<'_> {
 const MAX_GROUP: i32 = 5;
 
 impl AssetReader<'_> {
-    fn skin(&mut self, tree: &ElementTree, at: usize, node: &ElementNode) -> Option<Skin> {
+    fn skin(&mut self, tree: &ElementTree, index: usize, node: &ElementNode) -> Option<Skin> {
         let p = Props::written_props(node);
         let group = p.int("group").unwrap_or(0);
         if !(0..=MAX_GROUP).contains(&group) {
@@ -362,7 +362,7 @@ impl AssetReader<'_> {
                 AssetProblem::new("group", format!("is in group {group}"), "", "groups of skins are 0 to 5");
             return self.wrong(problem, rules::VALUE, node, &p);
         }
-        let bone_nodes: Vec<&ElementNode> = listed(tree.children(at).map(|(_, bone)| bone));
+        let bone_nodes: Vec<&ElementNode> = listed(tree.children(index).map(|(_, bone)| bone));
         let made = if p.text("file").is_some() {
             let (path, bytes) = self.file(node, &p)?;
             let written = ["vertex", "texcoord", "face"].into_iter().find(|a| p.has(a));

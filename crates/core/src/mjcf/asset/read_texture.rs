@@ -14,7 +14,7 @@ const MOST_CELLS: usize = 12;
 
 /// All textures with their names, in the order of the text.
 pub(crate) fn textures(cx: &Context) -> Vec<(String, Texture)> {
-    let nodes = cx.tree.sections("asset").flat_map(|(at, _)| cx.tree.children(at));
+    let nodes = cx.tree.sections("asset").flat_map(|(section, _)| cx.tree.children(section));
     let textures = nodes.filter(|(_, node)| node.element.name == "texture");
     listed(textures.map(|(_, node)| (name(node), read(cx, node))))
 }

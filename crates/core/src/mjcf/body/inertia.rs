@@ -96,22 +96,22 @@ pub(crate) fn principal_to(error: f64, m: [f64; 6]) -> (Vec3, Quat) {
         let [xx, yy, zz, off @ ..] = d;
         let diagonal = [xx, yy, zz];
         let size = diagonal.iter().fold(0.0_f64, |s, x| s.max(x.abs()));
-        let (mut largest, mut at) = (0.0_f64, 0);
+        let (mut largest, mut plane) = (0.0_f64, 0);
         for (i, x) in off.iter().enumerate() {
             let (r, c, _) = PLANES[i];
             let equal = x.abs() <= same && (diagonal[r] - diagonal[c]).abs() <= same;
             if x.abs() > largest && !equal {
-                (largest, at) = (x.abs(), i);
+                (largest, plane) = (x.abs(), i);
             }
         }
         if largest <= error.max(f64::EPSILON * size) || largest.is_nan() {
             break;
         }
-        let (r, c, axis) = PLANES[at];
+        let (r, c, axis) = PLANES[plane];
         let difference = diagonal[c] - diagonal[r];
         // For equal moments, the angle is exactly an eighth of a turn, so that rounding errors do not select its sign.
         let difference = if difference.abs() <= error { 0.0 } else { difference };
-        let tau = difference / (2.0 * off[at]);
+        let tau = difference / (2.0 * off[plane]);
         let root = libm::sqrt(1.0 + tau * tau);
         let tangent = if tau >= 0.0 { 1.0 / (tau + root) } else { -1.0 / (root - tau) };
         let turn = quat_axis_angle(axis, -libm::atan(tangent));

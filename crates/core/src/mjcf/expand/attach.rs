@@ -13,8 +13,8 @@ use crate::mjcf::text::values::Value;
 
 impl Expander {
     /// Copies a part of another model, or of this one, with a prefix for its names.
-    pub(super) fn attach(&mut self, at: usize, report: &mut Diagnostics) -> Option<()> {
-        let node = self.nodes.get(at)?.clone();
+    pub(super) fn attach(&mut self, request: usize, report: &mut Diagnostics) -> Option<()> {
+        let node = self.nodes.get(request)?.clone();
         let Some(prefix) = node.attribute("prefix").and(Some(node.text("prefix").unwrap_or(""))) else {
             report
                 .error(rules::MISSING_ATTRIBUTE, node.span.clone(), "attach has no `prefix`")
@@ -41,18 +41,18 @@ impl Expander {
                     report_unknown("model", model, self.models.keys().map(String::as_str), span, report);
                     return None;
                 };
-                let done = self.attach_model(at, &node, prefix, &mut child, part, report);
+                let done = self.attach_model(request, &node, prefix, &mut child, part, report);
                 self.models.insert(name, child);
                 done
             }
-            None => self.attach_element(at, &node, prefix, part, report),
+            None => self.attach_element(request, &node, prefix, part, report),
         }
     }
 
     /// Copies a body or frame of this model.
     fn attach_element(
         &mut self,
-        at: usize,
+        request: usize,
         node: &ElementNode,
         prefix: &str,
         part: Option<(&'static str, &str)>,
@@ -70,7 +70,7 @@ impl Expander {
             report_unknown(kind, name, names, span, report);
             return None;
         };
-        if original > at && original < self.written {
+        if original > request && original < self.written {
             report
                 .error(
                     rules::COPY,
@@ -80,7 +80,7 @@ impl Expander {
                 .help("move the `attach` after it");
             return None;
         }
-        if self.contains(original, at) {
+        if self.contains(original, request) {
             report
                 .error(rules::COPY, span, format!("{kind} {} is attached inside itself", shorten_name(name)))
                 .why("the copy would contain itself without end");
@@ -90,20 +90,20 @@ impl Expander {
         let subtree = copy::names(&self.nodes, original);
         let mut followers = self.uses.followers(&self.nodes, &subtree, false);
         let (copy, _) = copy::copy(&self.nodes, original, rename, None);
-        let copy = self.append_copy(copy, at)?;
+        let copy = self.append_copy(copy, request)?;
         let class = inherited_class(&self.nodes, original).unwrap_or("main").to_string();
-        self.replace_by_frame(at, vec![childclass(node, class)?], vec![copy])?;
+        self.replace_by_frame(request, vec![childclass(node, class)?], vec![copy])?;
         self.follow(&mut followers, rename)
     }
 
     /// Whether an element is inside another.
     fn contains(&self, outer: usize, inner: usize) -> bool {
         let mut up = Some(inner);
-        while let Some(at) = up {
-            if at == outer {
+        while let Some(index) = up {
+            if index == outer {
                 return true;
             }
-            up = self.nodes.get(at).and_then(|n| n.parent);
+            up = self.nodes.get(index).and_then(|n| n.parent);
         }
         false
     }
@@ -111,7 +111,7 @@ impl Expander {
     /// Copies a body, a frame or all of another model, with its assets and classes.
     fn attach_model(
         &mut self,
-        at: usize,
+        request: usize,
         node: &ElementNode,
         prefix: &str,
         child: &mut Child,
@@ -134,19 +134,19 @@ impl Expander {
         let class = childclass(node, class.unwrap_or(rename.main_class()))?;
         if part == Some(("body", WORLD)) {
             subtree.insert(("body", WORLD.to_string()));
-            let holder = self.append_copy(vec![world_body(node, rename, offset)?], at)?;
+            let holder = self.append_copy(vec![world_body(node, rename, offset)?], request)?;
             let inside = self.copy_roots(nodes, &roots, rename, holder)?;
             self.nodes.get_mut(holder)?.children = inside;
-            self.replace_by_frame(at, vec![class], vec![holder])?;
+            self.replace_by_frame(request, vec![class], vec![holder])?;
         } else {
-            let inside = self.copy_roots(nodes, &roots, rename, at)?;
-            self.replace_by_frame(at, vec![class], inside)?;
+            let inside = self.copy_roots(nodes, &roots, rename, request)?;
+            self.replace_by_frame(request, vec![class], inside)?;
         }
         self.copy_dependencies(nodes, rename, node)?;
         for f in child.uses.followers(nodes, &subtree, true) {
             subtree.extend(f.names);
-            for at in f.elements {
-                let (mut copy, _) = copy::copy(nodes, at, rename, Some(&subtree));
+            for index in f.elements {
+                let (mut copy, _) = copy::copy(nodes, index, rename, Some(&subtree));
                 add_main_class(&mut copy, rename, node);
                 self.append(f.section, copy)?;
             }
@@ -177,8 +177,8 @@ impl Expander {
         rename: Rename,
         request: &ElementNode,
     ) -> Option<()> {
-        for (section, at) in dependencies(nodes) {
-            let (mut copy, _) = copy::copy(nodes, at, rename, None);
+        for (section, index) in dependencies(nodes) {
+            let (mut copy, _) = copy::copy(nodes, index, rename, None);
             add_main_class(&mut copy, rename, request);
             if section == "default" {
                 let root = self.append_copy(copy, 0)?;
@@ -229,9 +229,9 @@ fn world_body(request: &ElementNode, rename: Rename, model: usize) -> Option<Ele
 }
 
 /// The class of elements at this position that have no class attribute, or `None` for the main class. A copy keeps this class.
-fn inherited_class(nodes: &[ElementNode], at: usize) -> Option<&str> {
-    let mut up = nodes.get(at)?.parent;
-    while let Some(node) = up.and_then(|at| nodes.get(at)) {
+fn inherited_class(nodes: &[ElementNode], index: usize) -> Option<&str> {
+    let mut up = nodes.get(index)?.parent;
+    while let Some(node) = up.and_then(|index| nodes.get(index)) {
         if let Some(class) = node.text("childclass") {
             return Some(class);
         }
@@ -278,10 +278,10 @@ fn add_main_class(copy: &mut [ElementNode], rename: Rename, request: &ElementNod
 /// The elements that are copied for every attached part of another model: all classes and assets, numbers and texts.
 fn dependencies(nodes: &[ElementNode]) -> Vec<(&'static str, usize)> {
     let mut list: Vec<_> = Vec::new();
-    for &at in nodes.first().map_or(&[][..], |root| &root.children) {
-        let Some(section) = nodes.get(at) else { continue };
+    for &index in nodes.first().map_or(&[][..], |root| &root.children) {
+        let Some(section) = nodes.get(index) else { continue };
         match section.element.name {
-            "default" => list.push(("default", at)),
+            "default" => list.push(("default", index)),
             name @ ("asset" | "custom" | "deformable") => {
                 let travels = |c: &usize| match nodes.get(*c).map_or("", |n| n.element.name) {
                     "model" => false,

@@ -48,8 +48,8 @@ pub(super) fn copy(
 ) -> (Vec<ElementNode>, Vec<usize>) {
     let (mut copy, mut from): (Vec<ElementNode>, Vec<usize>) = (Vec::new(), Vec::new());
     let mut stack = vec![(root, None)];
-    while let Some((at, parent)) = stack.pop() {
-        let Some(node) = nodes.get(at) else { continue };
+    while let Some((index, parent)) = stack.pop() {
+        let Some(node) = nodes.get(index) else { continue };
         let here = copy.len();
         if let Some(parent) = parent.and_then(|p: usize| copy.get_mut(p)) {
             parent.children.push(here);
@@ -64,7 +64,7 @@ pub(super) fn copy(
             }
         }
         copy.push(renamed);
-        from.push(at);
+        from.push(index);
         stack.extend(node.children.iter().rev().map(|&c| (c, Some(here))));
     }
     (copy, from)
@@ -93,7 +93,7 @@ fn new_name(node: &ElementNode, i: usize, rename: Rename, copied: Option<&Names>
 pub(super) fn names(nodes: &[ElementNode], root: usize) -> Names {
     let mut names = Names::new();
     let mut stack = vec![root];
-    while let Some(node) = stack.pop().and_then(|at| nodes.get(at)) {
+    while let Some(node) = stack.pop().and_then(|index| nodes.get(index)) {
         names.extend(own_name(node));
         stack.extend(&node.children);
     }

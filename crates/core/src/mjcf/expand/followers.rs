@@ -38,17 +38,17 @@ pub(super) fn can_follow(section: &str, node: &ElementNode) -> bool {
 
 impl Uses {
     /// Adds an element to the index.
-    pub(super) fn add(&mut self, section: &str, nodes: &[ElementNode], at: usize) {
+    pub(super) fn add(&mut self, section: &str, nodes: &[ElementNode], index: usize) {
         let Some(section) = SECTIONS.iter().position(|s| *s == section) else { return };
-        if !nodes.get(at).is_some_and(|node| can_follow(SECTIONS[section], node)) {
+        if !nodes.get(index).is_some_and(|node| can_follow(SECTIONS[section], node)) {
             return;
         }
-        let refs = references::list_references(nodes, at);
+        let refs = references::list_references(nodes, index);
         if refs.is_empty() {
-            self.free.push((section, at));
+            self.free.push((section, index));
         }
         for object in refs {
-            self.by_object.entry(object).or_default().push((section, at));
+            self.by_object.entry(object).or_default().push((section, index));
         }
     }
 
@@ -58,8 +58,8 @@ impl Uses {
     }
 
     /// Whether an element was removed.
-    pub(super) fn is_removed(&self, at: usize) -> bool {
-        self.gone.contains(&at)
+    pub(super) fn is_removed(&self, index: usize) -> bool {
+        self.gone.contains(&index)
     }
 
     /// The index of all elements of a tree.
@@ -67,8 +67,8 @@ impl Uses {
         let mut uses = Uses::default();
         for &section in nodes.first().map_or(&[][..], |root| &root.children) {
             let Some(section) = nodes.get(section) else { continue };
-            for &at in &section.children {
-                uses.add(section.element.name, nodes, at);
+            for &index in &section.children {
+                uses.add(section.element.name, nodes, index);
             }
         }
         uses
@@ -86,13 +86,15 @@ impl Uses {
         let mut followed = subtree.clone();
         let mut new: Vec<(&'static str, String)> = listed(subtree.iter().cloned());
         while let Some(object) = new.pop() {
-            for &(section, at) in self.by_object.get(&object).map_or(&[][..], Vec::as_slice) {
-                if !self.gone.contains(&at) && bound.insert((section, at)) {
-                    new.extend(nodes.get(at).and_then(own_name).filter(|name| followed.insert(name.clone())));
+            for &(section, index) in self.by_object.get(&object).map_or(&[][..], Vec::as_slice) {
+                if !self.gone.contains(&index) && bound.insert((section, index)) {
+                    new.extend(
+                        nodes.get(index).and_then(own_name).filter(|name| followed.insert(name.clone())),
+                    );
                 }
             }
         }
-        let free = self.free.iter().filter(|(_, at)| !self.gone.contains(at));
+        let free = self.free.iter().filter(|(_, index)| !self.gone.contains(index));
         let all: BTreeSet<(usize, usize)> = filled(bound.iter().chain(free).copied());
 
         let mut copied = subtree.clone();
@@ -100,17 +102,22 @@ impl Uses {
         if let Some(first) = list.first_mut() {
             first.names.clone_from(subtree);
         }
-        for (section, at) in all {
-            let (Some(f), Some(node)) = (list.get_mut(section), nodes.get(at)) else { continue };
-            if bound.contains(&(section, at)) {
-                f.bound.push(at);
+        for (section, index) in all {
+            let (Some(f), Some(node)) = (list.get_mut(section), nodes.get(index)) else { continue };
+            if bound.contains(&(section, index)) {
+                f.bound.push(index);
             }
-            if references::follows(f.section, &references::list_references(nodes, at), &copied, other_model) {
-                f.elements.push(at);
+            if references::follows(
+                f.section,
+                &references::list_references(nodes, index),
+                &copied,
+                other_model,
+            ) {
+                f.elements.push(index);
                 f.names.extend(own_name(node));
                 copied.extend(own_name(node));
             } else {
-                f.incomplete.push(at);
+                f.incomplete.push(index);
             }
         }
         list

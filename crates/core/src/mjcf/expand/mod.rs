@@ -65,21 +65,21 @@ pub(crate) fn model(written: UnexpandedModel, report: &mut Diagnostics) -> Expan
         parts: vec![AttachedModel { compiler, folder: written.folder }],
         models,
     };
-    for at in e.build_index() {
+    for request in e.build_index() {
         if report.is_full() {
             break;
         }
-        let done = match e.nodes.get(at).map(|n| n.element.name) {
-            Some("replicate") => e.replicate(at, report),
-            _ => e.attach(at, report),
+        let done = match e.nodes.get(request).map(|n| n.element.name) {
+            Some("replicate") => e.replicate(request, report),
+            _ => e.attach(request, report),
         };
         if done.is_none() {
             // A request that failed has no contents, and names that it would define are missing.
             report.incomplete = true;
-            e.replace_by_frame(at, Vec::new(), Vec::new());
+            e.replace_by_frame(request, Vec::new(), Vec::new());
         }
         if e.is_too_large() {
-            let span = e.nodes.get(at).map_or(0..0, |n| n.span.clone());
+            let span = e.nodes.get(request).map_or(0..0, |n| n.span.clone());
             report
                 .error(rules::LIMIT, span, "there are too many copies, or they are too large")
                 .why(format!("a model can have {MAX_ELEMENTS} elements, including copies"))
@@ -104,7 +104,7 @@ impl Child {
     fn new(model: Expanded) -> Child {
         let nodes = &model.tree.nodes;
         let uses = Uses::build_index(nodes);
-        let names = filled(nodes.iter().enumerate().filter_map(|(at, node)| Some((target(node)?, at))));
+        let names = filled(nodes.iter().enumerate().filter_map(|(index, node)| Some((target(node)?, index))));
         Child { model, uses, names, offset: None }
     }
 }
@@ -136,15 +136,15 @@ impl Expander {
         }
         // Inner requests come first: an element is finished after all its descendants.
         let mut stack: Vec<(usize, bool)> = vec![(0, false)];
-        while let Some((at, left)) = stack.pop() {
-            let Some(node) = self.nodes.get(at) else { continue };
+        while let Some((index, left)) = stack.pop() {
+            let Some(node) = self.nodes.get(index) else { continue };
             if left {
                 if matches!(node.element.name, "replicate" | "attach") {
-                    requests.push(at);
+                    requests.push(index);
                 }
             } else {
-                self.names.extend(target(node).map(|key| (key, at)));
-                stack.push((at, true));
+                self.names.extend(target(node).map(|key| (key, index)));
+                stack.push((index, true));
                 stack.extend(node.children.iter().rev().map(|&c| (c, false)));
             }
         }
@@ -184,8 +184,8 @@ impl Expander {
 
     /// Appends an element to a section.
     fn append(&mut self, section: &'static str, copy: Vec<ElementNode>) -> Option<usize> {
-        let at = match self.sections.get(section) {
-            Some(&at) => at,
+        let index = match self.sections.get(section) {
+            Some(&index) => index,
             None => {
                 let element = ROOT.child(section)?;
                 let span = self.nodes.first()?.span.clone();
@@ -197,28 +197,28 @@ impl Expander {
                     attributes: Vec::new(),
                     children: Vec::new(),
                 };
-                let at = self.append_copy(vec![node], 0)?;
-                self.nodes.first_mut()?.children.push(at);
-                self.sections.insert(element.name, at);
-                at
+                let index = self.append_copy(vec![node], 0)?;
+                self.nodes.first_mut()?.children.push(index);
+                self.sections.insert(element.name, index);
+                index
             }
         };
-        let copy = self.append_copy(copy, at)?;
-        self.nodes.get_mut(at)?.children.push(copy);
+        let copy = self.append_copy(copy, index)?;
+        self.nodes.get_mut(index)?.children.push(copy);
         self.uses.add(section, &self.nodes, copy);
         Some(copy)
     }
 
     /// Makes `count` copies in consecutive frames. The original is only their pattern.
-    fn replicate(&mut self, at: usize, report: &mut Diagnostics) -> Option<()> {
-        let node = self.nodes.get(at)?.clone();
+    fn replicate(&mut self, request: usize, report: &mut Diagnostics) -> Option<()> {
+        let node = self.nodes.get(request)?.clone();
         let count = count(&node, report)?;
         let digits = count.to_string().len();
         let separator = node.text("sep").unwrap_or("");
         let offset = node.reals("offset").unwrap_or([0.0; 3]);
         let euler: Vec3 = node.reals("euler").unwrap_or([0.0; 3]);
         let compiler = self.parts.get(node.model)?.compiler.clone();
-        let subtree = copy::names(&self.nodes, at);
+        let subtree = copy::names(&self.nodes, request);
         let mut followers = self.uses.followers(&self.nodes, &subtree, false);
         if count > 0 {
             self.report_unreplicable(&followers, report);
@@ -241,7 +241,7 @@ impl Expander {
             pos = add(pos, rotate(offset, quat));
 
             let frame = ElementNode { element: &FRAME, attributes, children: Vec::new(), ..node.clone() };
-            let frame = self.append_copy(vec![ElementNode { parent: None, ..frame }], at)?;
+            let frame = self.append_copy(vec![ElementNode { parent: None, ..frame }], request)?;
             for &child in &node.children {
                 let (copy, _) = copy::copy(&self.nodes, child, rename, None);
                 let copy = self.append_copy(copy, frame)?;
@@ -250,7 +250,7 @@ impl Expander {
             frames.push(frame);
             self.follow(&mut followers, rename)?;
         }
-        self.replace_by_frame(at, listed(node.attribute("childclass").cloned()), frames)?;
+        self.replace_by_frame(request, listed(node.attribute("childclass").cloned()), frames)?;
         // Elements that refer to the pattern are removed together with it.
         self.uses.remove(followers.into_iter().flat_map(|f| f.bound));
         Some(())
@@ -258,7 +258,7 @@ impl Expander {
 
     /// Reports elements that cannot be replicated.
     fn report_unreplicable(&self, followers: &[Followers], report: &mut Diagnostics) {
-        for node in followers.iter().flat_map(|f| &f.incomplete).filter_map(|&at| self.nodes.get(at)) {
+        for node in followers.iter().flat_map(|f| &f.incomplete).filter_map(|&index| self.nodes.get(index)) {
             report
                 .error(
                     rules::COPY,
@@ -276,8 +276,8 @@ impl Expander {
         for f in followers {
             copied.extend(f.names.iter().cloned());
             for i in 0..f.elements.len() {
-                let at = *f.elements.get(i)?;
-                let (copy, _) = copy::copy(&self.nodes, at, rename, Some(&copied));
+                let index = *f.elements.get(i)?;
+                let (copy, _) = copy::copy(&self.nodes, index, rename, Some(&copied));
                 let new = self.append(f.section, copy)?;
                 // A copy without references is itself copied by the next iteration.
                 if references::list_references(&self.nodes, new).is_empty() {
@@ -292,7 +292,7 @@ impl Expander {
     fn finish(mut self) -> Expanded {
         for section in self.nodes.first().map_or(Vec::new(), |root| root.children.clone()) {
             if let Some(section) = self.nodes.get_mut(section) {
-                section.children.retain(|&at| !self.uses.is_removed(at));
+                section.children.retain(|&index| !self.uses.is_removed(index));
             }
         }
         Expanded { tree: ElementTree { nodes: in_order(&self.nodes) }, parts: self.parts }

@@ -55,8 +55,8 @@ fn keyword(n: i32) -> Option<&'static str> {
 }
 
 /// The objects that an element and its children refer to, except assets.
-pub(super) fn list_references(nodes: &[ElementNode], at: usize) -> Vec<(&'static str, String)> {
-    let Some(node) = nodes.get(at) else { return Vec::new() };
+pub(super) fn list_references(nodes: &[ElementNode], index: usize) -> Vec<(&'static str, String)> {
+    let Some(node) = nodes.get(index) else { return Vec::new() };
     let children = node.children.iter().filter_map(|&c| nodes.get(c));
     let named = |n: &ElementNode| {
         let refs = n.attributes.iter().filter_map(|a| match (kind_of(n, a), &a.value) {

@@ -69,8 +69,8 @@ pub(super) fn check_names(tree: &ElementTree, report: &mut Diagnostics) {
 /// The names of the classes within a class.
 fn below(tree: &ElementTree, root: usize) -> Vec<&str> {
     let (mut names, mut open) = (Vec::new(), vec![root]);
-    while let Some(at) = open.pop() {
-        for (i, node) in tree.children(at).filter(|(_, n)| n.element.name == "default") {
+    while let Some(index) = open.pop() {
+        for (i, node) in tree.children(index).filter(|(_, n)| n.element.name == "default") {
             open.push(i);
             names.extend(node.attributes.iter().filter_map(|a| match &a.value {
                 Value::Text(name) => Some(name.as_str()),
@@ -81,8 +81,8 @@ fn below(tree: &ElementTree, root: usize) -> Vec<&str> {
     names
 }
 
-fn holds_bodies(tree: &ElementTree, at: usize) -> bool {
-    tree.nodes.get(at).is_some_and(|n| n.element.name != "default")
+fn holds_bodies(tree: &ElementTree, index: usize) -> bool {
+    tree.nodes.get(index).is_some_and(|n| n.element.name != "default")
 }
 
 /// A sky texture is visible without a reference.

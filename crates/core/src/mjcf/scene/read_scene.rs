@@ -30,7 +30,7 @@ pub(crate) fn site(cx: &mut Context, i: usize, node: &ElementNode, childclass: O
         if length == Some(2) {
             size[1] = size[0];
         }
-        if let Some(x) = length.and_then(|at| size.get_mut(at)) {
+        if let Some(x) = length.and_then(|index| size.get_mut(index)) {
             *x = span.half;
         }
     }
@@ -215,13 +215,13 @@ const RGB: usize = 1;
 /// All materials in the order of the text.
 pub(crate) fn materials(cx: &Context) -> Vec<MaterialSpec> {
     let tree = cx.tree;
-    let nodes = tree.sections("asset").flat_map(|(at, _)| tree.children(at));
-    let read = |at: usize, node: &ElementNode| {
+    let nodes = tree.sections("asset").flat_map(|(index, _)| tree.children(index));
+    let read = |index: usize, node: &ElementNode| {
         let p = cx.classes.props(node, None);
         let number = |name: &str, default: f64| p.real(name).unwrap_or(default);
         let mut textures: [Option<String>; ROLES] = Default::default();
         textures[RGB] = p.text("texture").map(str::to_string);
-        for (_, layer) in tree.children(at) {
+        for (_, layer) in tree.children(index) {
             let role = layer.keyword("role").and_then(|role| textures.get_mut(usize::try_from(role).ok()?));
             if let Some(place) = role {
                 *place = layer.text("texture").map(str::to_string);
@@ -243,14 +243,14 @@ pub(crate) fn materials(cx: &Context) -> Vec<MaterialSpec> {
             rgba: p.reals("rgba", [1.0; 4]),
         }
     };
-    listed(nodes.filter(|(_, node)| node.element.name == "material").map(|(at, node)| read(at, node)))
+    listed(nodes.filter(|(_, node)| node.element.name == "material").map(|(index, node)| read(index, node)))
 }
 
 /// All custom lists of numbers. Missing numbers are zero.
 pub(crate) fn numerics(cx: &mut Context) -> Vec<NumericSpec> {
     let tree = cx.tree;
     let mut all = Vec::new();
-    for (_, node) in tree.sections("custom").flat_map(|(at, _)| tree.children(at)) {
+    for (_, node) in tree.sections("custom").flat_map(|(index, _)| tree.children(index)) {
         if node.element.name != "numeric" {
             continue;
         }
@@ -283,7 +283,7 @@ pub(crate) fn texts(
     tree: &ElementTree,
     report: &mut crate::mjcf::text::diagnostic::Diagnostics,
 ) -> Vec<(String, String)> {
-    let nodes = tree.sections("custom").flat_map(|(at, _)| tree.children(at));
+    let nodes = tree.sections("custom").flat_map(|(index, _)| tree.children(index));
     listed(
         nodes
             .filter(|(_, node)| node.element.name == "text")
@@ -303,12 +303,12 @@ pub(crate) fn texts(
 pub(crate) fn tuples(cx: &mut Context, refs: References) -> Vec<TupleSpec> {
     let tree = cx.tree;
     let mut all = Vec::new();
-    for (at, node) in tree.sections("custom").flat_map(|(at, _)| tree.children(at)) {
+    for (index, node) in tree.sections("custom").flat_map(|(index, _)| tree.children(index)) {
         if node.element.name != "tuple" {
             continue;
         }
         let mut elements = Vec::new();
-        for (_, element) in tree.children(at) {
+        for (_, element) in tree.children(index) {
             let p = Props::written_props(element);
             if let Some((kind, id)) = element_of(cx, refs.ids, refs.names, &p, element) {
                 elements.push((kind, id, p.real("prm").unwrap_or(0.0)));

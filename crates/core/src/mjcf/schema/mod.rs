@@ -298,9 +298,9 @@ pub fn schema_rows() -> Vec<SchemaRow> {
 pub(crate) fn parents_of(name: &str) -> Vec<&'static str> {
     let mut parents: [Vec<&'static str>; 2] = Default::default();
     let mut seen: Vec<&'static Element> = vec![&ROOT];
-    let mut at = 0;
-    while let Some(&element) = seen.get(at) {
-        at += 1;
+    let mut next = 0;
+    while let Some(&element) = seen.get(next) {
+        next += 1;
         if let Some(child) = element.child(name) {
             let refused = [element.status, child.status].contains(&Status::Unsupported);
             let [open, closed] = &mut parents;

@@ -165,7 +165,7 @@ impl SensorContext<'_> {
     /// attributes are an error.
     fn one_of(&mut self, attributes: &[(&'static str, &'static str)]) -> Option<Option<(usize, i32)>> {
         let mut given = attributes.iter().enumerate().filter(|(_, (a, _))| self.node.attribute(a).is_some());
-        let Some((at, &(attribute, kind))) = given.next() else { return Some(None) };
+        let Some((position, &(attribute, kind))) = given.next() else { return Some(None) };
         if let Some((_, &(other, _))) = given.next() {
             let message = format!("{} has both `{attribute}` and `{other}`", self.node.describe());
             self.error_at(other, rules::CONFLICT, message)
@@ -176,7 +176,7 @@ impl SensorContext<'_> {
         if self.node.text(attribute).is_none() {
             return self.missing(&[attribute]);
         }
-        Some(Some((at, self.id(attribute, kind)?)))
+        Some(Some((position, self.id(attribute, kind)?)))
     }
 
     /// The site and the camera in whose image it is.
@@ -279,7 +279,8 @@ impl SensorContext<'_> {
 
     /// Two sides, each a geom, or a body that represents all its geoms.
     fn pair(&mut self) -> Option<SensorObjects> {
-        let side = |(at, id): (usize, i32)| (if at == 0 { Obj::Geom } else { Obj::Body } as i32, id);
+        let side =
+            |(position, id): (usize, i32)| (if position == 0 { Obj::Geom } else { Obj::Body } as i32, id);
         let first = self.one_of(&[("geom1", "geom"), ("body1", "body")])?.map(side);
         let second = self.one_of(&[("geom2", "geom"), ("body2", "body")])?.map(side);
         let (Some(first), Some(second)) = (first, second) else {
@@ -298,7 +299,7 @@ impl SensorContext<'_> {
     fn contact_filter(&mut self) -> Option<SensorObjects> {
         const KINDS: [Obj; 4] = [Obj::Geom, Obj::Body, Obj::XBody, Obj::Site];
         let side = |found: Option<(usize, i32)>| {
-            found.map_or((0, -1), |(at, id)| (KINDS.get(at).map_or(0, |&k| k as i32), id))
+            found.map_or((0, -1), |(position, id)| (KINDS.get(position).map_or(0, |&k| k as i32), id))
         };
         let first = [("geom1", "geom"), ("body1", "body"), ("subtree1", "body"), ("site", "site")];
         let second = [("geom2", "geom"), ("body2", "body"), ("subtree2", "body")];
@@ -397,20 +398,20 @@ impl SensorContext<'_> {
         let all: Vec<&str> = listed(fields.iter().map(|(name, _)| *name));
         let all = all.join(" ");
         for word in text.split_ascii_whitespace() {
-            let Some(at) = fields.iter().position(|(name, _)| *name == word) else {
+            let Some(index) = fields.iter().position(|(name, _)| *name == word) else {
                 let message = format!("`data` of {} lists {}", self.node.describe(), shorten_name(word));
                 self.error_at("data", rules::KEYWORD, message).help(format!("use only these: {all}"));
                 return None;
             };
-            if last.is_some_and(|last| at <= last) {
+            if last.is_some_and(|last| index <= last) {
                 let message = format!("`data` of {} lists its fields out of order", self.node.describe());
                 self.error_at("data", rules::KEYWORD, message)
                     .why("values always have the same order, and each field appears once")
                     .help(format!("use the order {all}"));
                 return None;
             }
-            last = Some(at);
-            mask |= 1 << at;
+            last = Some(index);
+            mask |= 1 << index;
         }
         Some(if mask == 0 { 1 } else { mask })
     }

@@ -113,10 +113,10 @@ fn damaged_files_are_errors() {
             let cut = load(&bytes[..end]);
             assert!(cut.is_err() || name == "a.obj", "{name} {end}");
         }
-        for at in 0..bytes.len() {
+        for offset in 0..bytes.len() {
             for change in [0x80, 0x7f, 0xff] {
                 let mut damaged = bytes.clone();
-                damaged[at] ^= change;
+                damaged[offset] ^= change;
                 go(load(&damaged));
             }
         }

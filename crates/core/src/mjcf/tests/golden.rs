@@ -119,18 +119,18 @@ fn schema_names() {
     use std::collections::BTreeMap;
     // Elements that the library expands before it checks the schema.
     const EXPANDED: [&str; 3] = ["include", "frame", "replicate"];
-    let mut ours: BTreeMap<String, Vec<&str>> = BTreeMap::new();
+    let mut declared: BTreeMap<String, Vec<&str>> = BTreeMap::new();
     for row in mjcf::schema_rows() {
         if row.path.split('/').any(|e| EXPANDED.contains(&e))
             || row.path.starts_with("mujoco/worldbody/body/")
         {
             continue;
         }
-        let names = ours.entry(row.path).or_default();
+        let names = declared.entry(row.path).or_default();
         names.extend(row.attribute.map(|a| a.name));
     }
     let mut wrong = Vec::new();
-    let mut theirs = BTreeMap::new();
+    let mut library = BTreeMap::new();
     for line in include_str!("../golden/schema.txt").lines() {
         let mut words = line.split(' ');
         // Their schema has one entry for the world and for bodies; ours has two.
@@ -140,15 +140,15 @@ fn schema_names() {
             matches!(rest.split('/').next(), Some("inertial" | "joint" | "freejoint" | "plugin"))
         });
         if path == "mujoco/worldbody" {
-            theirs.insert("mujoco/worldbody/body".to_string(), std::mem::take(&mut names));
+            library.insert("mujoco/worldbody/body".to_string(), std::mem::take(&mut names));
         }
         if !in_body {
-            theirs.insert(path, names);
+            library.insert(path, names);
         }
     }
-    for (path, names) in &mut ours {
+    for (path, names) in &mut declared {
         names.sort_unstable();
-        match theirs.remove(path) {
+        match library.remove(path) {
             Some(expected) if expected == *names => {}
             Some(expected) => wrong.push(format!(
                 "{path}: missing {:?}, extra {:?}",
@@ -158,6 +158,6 @@ fn schema_names() {
             None => wrong.push(format!("{path}: not in MuJoCo's schema")),
         }
     }
-    wrong.extend(theirs.keys().map(|path| format!("{path}: not in our schema")));
+    wrong.extend(library.keys().map(|path| format!("{path}: not in our schema")));
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }

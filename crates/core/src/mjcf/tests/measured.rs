@@ -18,10 +18,10 @@ fn text_between_elements_loads_where_mujoco_loads_it() {
     let (mut wrong, mut warned) = (Vec::new(), 0);
     for (answer, text) in cases(include_str!("../golden/texts.txt")) {
         let checked = check_xml(&text, &NoFiles, None);
-        let ours = if checked.model.is_some() { "loads" } else { "refused" };
+        let outcome = if checked.model.is_some() { "loads" } else { "refused" };
         let texts: Vec<_> = checked.findings.iter().filter(|d| d.code == rules::TEXT).collect();
-        if ours != answer || texts.iter().any(|d| d.severity == Severity::Error) {
-            wrong.push(format!("{answer} there, {ours} here: {text:?}: {:?}", checked.findings.first()));
+        if outcome != answer || texts.iter().any(|d| d.severity == Severity::Error) {
+            wrong.push(format!("{answer} there, {outcome} here: {text:?}: {:?}", checked.findings.first()));
         }
         for d in texts {
             assert!(text.get(d.span.clone()).is_some_and(|s| !s.trim().is_empty()), "{text:?}: {:?}", d.span);
@@ -37,9 +37,9 @@ fn text_between_elements_loads_where_mujoco_loads_it() {
 fn sizes_are_refused_where_mujoco_refuses_them() {
     let mut wrong = Vec::new();
     for (answer, text) in cases(include_str!("../golden/sizes.txt")) {
-        let ours = if compile(&text).is_ok() { "loads" } else { "refused" };
-        if ours != answer {
-            wrong.push(format!("{answer} there, {ours} here: {text}"));
+        let outcome = if compile(&text).is_ok() { "loads" } else { "refused" };
+        if outcome != answer {
+            wrong.push(format!("{answer} there, {outcome} here: {text}"));
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
@@ -54,12 +54,12 @@ fn negative_margins_are_those_of_mujoco() {
         let Workspace { fields: mut d, scratch: mut s } = Workspace::new(&m);
         forward(&m, &mut d, &mut s);
         let expected: Vec<f64> = recorded.split(' ').map(|x| x.parse().unwrap()).collect();
-        let mut ours = vec![d.ncon as f64, d.nefc as f64];
-        ours.extend(d.contact.iter().map(|c| c.dist));
-        let same =
-            expected.len() == ours.len() && expected.iter().zip(&ours).all(|(a, b)| (a - b).abs() < 1e-9);
+        let mut contents = vec![d.ncon as f64, d.nefc as f64];
+        contents.extend(d.contact.iter().map(|c| c.dist));
+        let same = expected.len() == contents.len()
+            && expected.iter().zip(&contents).all(|(a, b)| (a - b).abs() < 1e-9);
         if !same {
-            wrong.push(format!("want {expected:?}, got {ours:?}: {text}"));
+            wrong.push(format!("want {expected:?}, got {contents:?}: {text}"));
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
@@ -71,10 +71,10 @@ fn axes_of_nearly_symmetric_meshes_are_those_of_mujoco() {
     let mut wrong = Vec::new();
     for (recorded, text) in cases(include_str!("../golden/ties.txt")) {
         let expected: Vec<f64> = recorded.split(' ').map(|x| x.parse().unwrap()).collect();
-        let ours = compile(&text).unwrap().geom_quat;
-        let product: f64 = expected.iter().zip(&ours).map(|(a, b)| a * b).sum();
+        let computed = compile(&text).unwrap().geom_quat;
+        let product: f64 = expected.iter().zip(&computed).map(|(a, b)| a * b).sum();
         if 1.0 - product.abs() > 1e-12 {
-            wrong.push(format!("want {expected:?}, got {ours:?}: {text}"));
+            wrong.push(format!("want {expected:?}, got {computed:?}: {text}"));
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));

@@ -11,11 +11,11 @@ fn format_findings(xml: &str) -> String {
     }
     let mut out = String::new();
     for d in list {
-        let at = d.position.unwrap();
-        let line = xml.lines().nth(at.line - 1).unwrap_or("");
+        let position = d.position.unwrap();
+        let line = xml.lines().nth(position.line - 1).unwrap_or("");
         let width =
             xml.get(d.span.clone()).map_or(1, |s| s.lines().next().unwrap_or("").chars().count().max(1));
-        out += &format!("{line}\n{}{}\n{d}\n\n", " ".repeat(at.column - 1), "^".repeat(width));
+        out += &format!("{line}\n{}{}\n{d}\n\n", " ".repeat(position.column - 1), "^".repeat(width));
     }
     out
 }

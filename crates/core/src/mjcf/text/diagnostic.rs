@@ -245,7 +245,7 @@ impl Diagnostics {
             let lines = lines.get_or_insert_with(|| Lines::new(text));
             let line = lines.line(start);
             let (from, column) = match last {
-                (source, at, place) if source == i && place.line == line => (at, place.column),
+                (source, offset, place) if source == i && place.line == line => (offset, place.column),
                 _ => (lines.start(line).unwrap_or(0), 1),
             };
             let column = column + text.get(from..start).unwrap_or("").chars().count();
@@ -261,9 +261,9 @@ fn add(list: &mut Vec<Finding>, finding: Finding) -> ReportedFinding<'_> {
     if list.len() > MAX_DIAGNOSTICS {
         list.pop();
     }
-    let at = list.len();
+    let index = list.len();
     list.push(finding);
-    ReportedFinding(&mut list[at]) // in bounds: the element was just pushed
+    ReportedFinding(&mut list[index]) // in bounds: the element was just pushed
 }
 
 /// A name for a message: quoted, and truncated if it is very long.
@@ -292,7 +292,7 @@ mod tests {
         let places: Vec<_> = r
             .finish()
             .into_iter()
-            .map(|d| (d.path, d.position.map(|at| (at.line, at.column)), d.span))
+            .map(|d| (d.path, d.position.map(|position| (position.line, position.column)), d.span))
             .collect();
         assert_eq!(
             places,

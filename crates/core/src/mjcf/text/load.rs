@@ -146,28 +146,28 @@ impl<'f> Loader<'f> {
         report: &mut Diagnostics,
     ) {
         let mut included: BTreeSet<String> = filled(model_name.map(str::to_string));
-        let mut at = 0;
-        while let Some(element) = list.get(at) {
+        let mut index = 0;
+        while let Some(element) = list.get(index) {
             if element.name == "include" && !report.is_full() {
-                let children = self.included(at, list, folder, &mut included, report);
-                if let Some(element) = list.get_mut(at) {
+                let children = self.included(index, list, folder, &mut included, report);
+                if let Some(element) = list.get_mut(index) {
                     element.children = children;
                 }
             }
-            at += 1;
+            index += 1;
         }
     }
 
     /// The elements that replace an `include`.
     fn included(
         &mut self,
-        at: usize,
+        index: usize,
         list: &mut Vec<XmlElement>,
         folder: &str,
         included: &mut BTreeSet<String>,
         report: &mut Diagnostics,
     ) -> Vec<usize> {
-        let Some(element) = list.get(at) else { return Vec::new() };
+        let Some(element) = list.get(index) else { return Vec::new() };
         #[cfg(test)]
         super::seen::note(&crate::mjcf::schema::INCLUDE, "file");
         let span = element.span.clone();

@@ -48,7 +48,7 @@ pub struct Refusal {
 /// An element with its entry in the schema.
 #[derive(Clone, Copy)]
 struct PatchElement {
-    at: usize,
+    index: usize,
     parent: usize,
     schema: &'static schema::Element,
     /// Whether it is inside `default`. Only paths that begin with `default` refer to it.
@@ -70,7 +70,7 @@ pub(super) fn replace(
     let found = find_element(list, &elements, kind, name)?;
     let new_kind = list.get(new).map_or("", |e| e.name.as_str());
     // The parent in the schema: an included element belongs to the parent of the `include`.
-    let parent = elements.iter().find(|s| s.at == found.parent).filter(|_| found.at != root);
+    let parent = elements.iter().find(|s| s.index == found.parent).filter(|_| found.index != root);
     let Some(parent) = parent else {
         let message = format!("`{kind}` cannot be replaced");
         return Err(Refusal { message, help: "change its attributes, or replace an element in it".into() });
@@ -81,8 +81,8 @@ pub(super) fn replace(
         let help = suggestion(new_kind, parent.schema.child_names(), "it has no children");
         return Err(Refusal { message, help });
     }
-    let old_name = list.get(found.at).and_then(|e| e.attribute("name")).map(|a| a.value.clone());
-    let span = list.get(found.at).map_or(0..0, |e| e.span.clone());
+    let old_name = list.get(found.index).and_then(|e| e.attribute("name")).map(|a| a.value.clone());
+    let span = list.get(found.index).map_or(0..0, |e| e.span.clone());
     place_at(list, new, &span);
     let named = list.get(new).is_some_and(|e| e.attribute("name").is_some());
     if let Some(name) = old_name.filter(|_| !named) {
@@ -90,7 +90,7 @@ pub(super) fn replace(
     }
     for element in list.iter_mut() {
         for child in &mut element.children {
-            if *child == found.at {
+            if *child == found.index {
                 *child = new;
             }
         }
@@ -99,10 +99,10 @@ pub(super) fn replace(
 }
 
 /// Gives an element and everything in it a span: that of the element which it replaces.
-fn place_at(list: &mut [XmlElement], at: usize, span: &std::ops::Range<usize>) {
-    let mut open = vec![at];
-    while let Some(at) = open.pop() {
-        let Some(element) = list.get_mut(at) else { continue };
+fn place_at(list: &mut [XmlElement], index: usize, span: &std::ops::Range<usize>) {
+    let mut open = vec![index];
+    while let Some(index) = open.pop() {
+        let Some(element) = list.get_mut(index) else { continue };
         element.span = span.clone();
         for attribute in &mut element.attributes {
             (attribute.name_span, attribute.value_span) = (span.clone(), span.clone());
@@ -147,7 +147,7 @@ pub(super) fn apply(list: &mut Vec<XmlElement>, root: usize, patch: &Patch) -> R
             "change one of its attributes: objects are found by their names",
         ),
         Some(_) => {
-            set(list, found.at, attribute, &patch.value);
+            set(list, found.index, attribute, &patch.value);
             Ok(())
         }
         None => {
@@ -166,7 +166,7 @@ fn set_default(
     value: &str,
 ) -> Result<(), Refusal> {
     let elements = list_elements(list, root);
-    let class_of = |s: &PatchElement| list.get(s.at)?.attribute("class").map(|a| a.value.clone());
+    let class_of = |s: &PatchElement| list.get(s.index)?.attribute("class").map(|a| a.value.clone());
     let classes: Vec<PatchElement> = listed(elements.iter().copied().filter(|s| s.schema.name == "default"));
     // The outermost class is the main one, with or without its name.
     let is_main = |s: &PatchElement| s.parent == root;
@@ -177,7 +177,7 @@ fn set_default(
     let found = match (found, class) {
         (Some(found), _) => *found,
         (None, None | Some("main")) => {
-            let root = PatchElement { at: root, parent: root, schema: &ROOT, default: false };
+            let root = PatchElement { index: root, parent: root, schema: &ROOT, default: false };
             let made = create_child(list, root, "default");
             made.ok_or_else(|| unknown_kind("default", std::iter::empty()))?
         }
@@ -197,9 +197,9 @@ fn set_default(
             help,
         });
     }
-    let existing = elements.iter().find(|s| s.parent == found.at && s.schema.name == kind).copied();
+    let existing = elements.iter().find(|s| s.parent == found.index && s.schema.name == kind).copied();
     if let Some(entry) = existing.or_else(|| create_child(list, found, kind)) {
-        set(list, entry.at, attribute, value);
+        set(list, entry.index, attribute, value);
     }
     Ok(())
 }
@@ -213,7 +213,8 @@ fn find_element(
     name: Option<&str>,
 ) -> Result<PatchElement, Refusal> {
     let refuse = |message: String, help: &str| Err(Refusal { message, help: help.to_string() });
-    let named = |s: &PatchElement| list.get(s.at).and_then(|e| e.attribute("name")).map(|a| a.value.as_str());
+    let named =
+        |s: &PatchElement| list.get(s.index).and_then(|e| e.attribute("name")).map(|a| a.value.as_str());
     let of_kind: Vec<PatchElement> =
         listed(elements.iter().copied().filter(|s| !s.default && s.schema.name == kind));
     let names = of_kind.iter().filter_map(named);
@@ -248,19 +249,19 @@ fn find_element(
 /// All elements below the root that the schema contains. Included elements belong to the parent of the `include`.
 fn list_elements(list: &[XmlElement], root: usize) -> Vec<PatchElement> {
     let (mut all, mut open) =
-        (Vec::new(), vec![PatchElement { at: root, parent: root, schema: &ROOT, default: false }]);
+        (Vec::new(), vec![PatchElement { index: root, parent: root, schema: &ROOT, default: false }]);
     while let Some(elements) = open.pop() {
-        let Some(element) = list.get(elements.at) else { continue };
+        let Some(element) = list.get(elements.index) else { continue };
         if element.name != INCLUDE.name {
             all.push(elements);
         }
         for &child in element.children.iter().rev() {
             let Some(name) = list.get(child).map(|c| c.name.as_str()) else { continue };
             if name == INCLUDE.name {
-                open.push(PatchElement { at: child, ..elements });
+                open.push(PatchElement { index: child, ..elements });
             } else if let Some(schema) = elements.schema.child(name) {
                 let default = elements.default || name == "default";
-                open.push(PatchElement { at: child, parent: elements.at, schema, default });
+                open.push(PatchElement { index: child, parent: elements.index, schema, default });
             }
         }
     }
@@ -281,7 +282,7 @@ fn create_settings_element(
 
 /// Adds an empty child to an element.
 fn create_child(list: &mut Vec<XmlElement>, holder: PatchElement, name: &str) -> Option<PatchElement> {
-    let (at, span) = (list.len(), list.get(holder.at)?.span.clone());
+    let (index, span) = (list.len(), list.get(holder.index)?.span.clone());
     list.push(XmlElement {
         name: name.to_string(),
         span,
@@ -289,8 +290,13 @@ fn create_child(list: &mut Vec<XmlElement>, holder: PatchElement, name: &str) ->
         attributes: Vec::new(),
         children: Vec::new(),
     });
-    list.get_mut(holder.at)?.children.push(at);
-    Some(PatchElement { at, parent: holder.at, schema: holder.schema.child(name)?, default: holder.default })
+    list.get_mut(holder.index)?.children.push(index);
+    Some(PatchElement {
+        index,
+        parent: holder.index,
+        schema: holder.schema.child(name)?,
+        default: holder.default,
+    })
 }
 
 /// The element that contains the mass of a body: its `inertial`, or its only geom.
@@ -301,7 +307,7 @@ fn mass_of(
     name: &str,
 ) -> Result<PatchElement, Refusal> {
     let parts = |kind: &str| -> Vec<PatchElement> {
-        listed(elements.iter().copied().filter(|s| s.parent == body.at && s.schema.name == kind))
+        listed(elements.iter().copied().filter(|s| s.parent == body.index && s.schema.name == kind))
     };
     let (inertial, geoms) = (parts("inertial"), parts("geom"));
     match (inertial.as_slice(), geoms.as_slice()) {
@@ -309,7 +315,7 @@ fn mass_of(
         ([], [geom]) => Ok(*geom),
         _ => {
             let names =
-                geoms.iter().filter_map(|s| list.get(s.at)?.attribute("name").map(|a| a.value.as_str()));
+                geoms.iter().filter_map(|s| list.get(s.index)?.attribute("name").map(|a| a.value.as_str()));
             let names: Vec<&str> = listed(names);
             Err(Refusal {
                 message: format!("the mass of the body `{name}` is the sum of its {} geoms", geoms.len()),
@@ -319,8 +325,8 @@ fn mass_of(
     }
 }
 
-fn set(list: &mut [XmlElement], at: usize, attribute: &str, value: &str) {
-    let Some(element) = list.get_mut(at) else { return };
+fn set(list: &mut [XmlElement], index: usize, attribute: &str, value: &str) {
+    let Some(element) = list.get_mut(index) else { return };
     let span = element.span.clone();
     element.attributes.retain(|a| a.name != attribute || a.namespace);
     element.attributes.push(XmlAttribute {

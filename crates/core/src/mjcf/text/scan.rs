@@ -36,7 +36,7 @@ impl Prepared<'_> {
         let (mut low, mut high) = (0, self.inserted.len());
         while low < high {
             let n = (low + high) / 2;
-            if self.inserted.get(n).is_some_and(|at| at + n < byte) { low = n + 1 } else { high = n }
+            if self.inserted.get(n).is_some_and(|offset| offset + n < byte) { low = n + 1 } else { high = n }
         }
         byte - low
     }
@@ -68,13 +68,13 @@ pub(crate) fn prepare<'t>(
     let mut text =
         if blanks.is_empty() { Cow::Borrowed(text) } else { Cow::Owned(replace_by_blanks(text, &blanks)) };
     if !inserted.is_empty() {
-        let (mut out, mut at) = (String::with_capacity(text.len() + inserted.len()), 0);
+        let (mut out, mut offset) = (String::with_capacity(text.len() + inserted.len()), 0);
         for &place in &inserted {
-            out.push_str(text.get(at..place).unwrap_or(""));
+            out.push_str(text.get(offset..place).unwrap_or(""));
             out.push(' ');
-            at = place;
+            offset = place;
         }
-        out.push_str(text.get(at..).unwrap_or(""));
+        out.push_str(text.get(offset..).unwrap_or(""));
         text = Cow::Owned(out);
     }
     Some(Prepared { text, inserted })
@@ -82,14 +82,14 @@ pub(crate) fn prepare<'t>(
 
 /// The text with these ranges replaced by blanks. The ranges are on character boundaries, and line breaks stay.
 fn replace_by_blanks(text: &str, places: &[Range<usize>]) -> String {
-    let (mut out, mut at) = (String::with_capacity(text.len()), 0);
+    let (mut out, mut offset) = (String::with_capacity(text.len()), 0);
     for place in places {
-        out.push_str(text.get(at..place.start).unwrap_or(""));
+        out.push_str(text.get(offset..place.start).unwrap_or(""));
         let passed = text.get(place.clone()).unwrap_or("").bytes();
         out.extend(passed.map(|b| if b == b'\n' { '\n' } else { ' ' }));
-        at = place.end;
+        offset = place.end;
     }
-    out.push_str(text.get(at..).unwrap_or(""));
+    out.push_str(text.get(offset..).unwrap_or(""));
     out
 }
 
@@ -135,14 +135,14 @@ fn within_limits(
         return false;
     }
     let bytes = text.as_bytes();
-    let (mut at, mut depth, mut ended) = (0, 0usize, false);
-    while let Some(open) = find(bytes, at, b"<") {
+    let (mut offset, mut depth, mut ended) = (0, 0usize, false);
+    while let Some(open) = find(bytes, offset, b"<") {
         // Text directly after the root element is an error in MuJoCo too. The parser reports it.
         if !ended {
-            skip_text(text, at..open, base, changes, report);
+            skip_text(text, offset..open, base, changes, report);
         }
         let rest = bytes.get(open..).unwrap_or_default();
-        at = if rest.starts_with(b"<!--") {
+        offset = if rest.starts_with(b"<!--") {
             ended = false;
             after(bytes, open + 4, b"-->")
         } else if rest.starts_with(b"<![CDATA[") {
@@ -173,15 +173,15 @@ fn within_limits(
         };
     }
     if !ended && depth == 0 && counts.elements > 0 {
-        skip_text(text, at..text.len(), base, changes, report);
+        skip_text(text, offset..text.len(), base, changes, report);
     }
     true
 }
 
 /// Reports a declaration of a document type or an entity, which starts with two characters.
-fn refuse_declaration(at: usize, report: &mut Diagnostics) {
+fn refuse_declaration(offset: usize, report: &mut Diagnostics) {
     report
-        .error(rules::XML, at..at + 2, "the model declares a document type or an entity")
+        .error(rules::XML, offset..offset + 2, "the model declares a document type or an entity")
         .why("entities could make a small file expand without bound")
         .help("remove the `<!…>` declaration");
 }
@@ -197,17 +197,17 @@ fn tag_within_limits(
 ) -> bool {
     counts.elements += 1;
     counts.attributes += tag.attributes;
-    for &at in &tag.joined {
+    for &offset in &tag.joined {
         report
-            .warning(rules::TEXT, base + at..base + at, "a space is missing between two attributes")
+            .warning(rules::TEXT, base + offset..base + offset, "a space is missing between two attributes")
             .help("put a space here");
     }
     let name = open..open + 1;
     if tag.attributes > MAX_ATTRIBUTES {
         report.error(rules::LIMIT, name, format!("an element has more than {MAX_ATTRIBUTES} attributes"));
-    } else if let Some(at) = tag.namespace {
+    } else if let Some(offset) = tag.namespace {
         report
-            .error(rules::XML, base + at..base + at + 5, "the model declares an XML namespace")
+            .error(rules::XML, base + offset..base + offset + 5, "the model declares an XML namespace")
             .help("remove the `xmlns` attribute");
     } else if depth > MAX_DEPTH {
         report

@@ -119,8 +119,8 @@ pub(crate) fn check_tree(list: &[Xml], root: usize, report: &mut Diagnostics) ->
 
     let mut tree = ElementTree::default();
     let mut stack = vec![(root, &ROOT, None, 1)];
-    while let Some((at, element, parent, depth)) = stack.pop() {
-        let Some(xml) = list.get(at) else { continue };
+    while let Some((item, element, parent, depth)) = stack.pop() {
+        let Some(xml) = list.get(item) else { continue };
         if report.is_full() {
             return None;
         }
@@ -150,13 +150,13 @@ pub(crate) fn check_tree(list: &[Xml], root: usize, report: &mut Diagnostics) ->
 fn content<'x>(list: &'x [Xml], xml: &'x Xml, report: &mut Diagnostics) -> Vec<(usize, &'x Xml)> {
     let mut content = Vec::new();
     let mut stack: Vec<usize> = listed(xml.children.iter().rev().copied());
-    while let Some(at) = stack.pop() {
-        let Some(child) = list.get(at) else { continue };
+    while let Some(index) = stack.pop() {
+        let Some(child) = list.get(index) else { continue };
         if child.name == INCLUDE.name {
             attributes(child, &INCLUDE, report);
             stack.extend(child.children.iter().rev());
         } else {
-            content.push((at, child));
+            content.push((index, child));
         }
     }
     content
@@ -171,7 +171,7 @@ fn children(
 ) -> Vec<(usize, &'static Element)> {
     let mut known_children: Vec<(usize, &'static Element)> = Vec::new();
     let mut seen: Vec<&'static str> = Vec::new();
-    for (at, child) in content(list, xml, report) {
+    for (index, child) in content(list, xml, report) {
         if report.is_full() {
             break;
         }
@@ -205,7 +205,7 @@ fn children(
         if known_child.once {
             seen.push(known_child.name);
         }
-        known_children.push((at, known_child));
+        known_children.push((index, known_child));
     }
     known_children
 }
@@ -263,12 +263,12 @@ fn attributes(xml: &Xml, element: &'static Element, report: &mut Diagnostics) ->
             (_, Err(p)) => {
                 refused_word |= p.code == rules::NOT_SUPPORTED;
                 // The position inside the value is known only if the value contains no character references.
-                let at = match p.at {
-                    Some(at) if a.exact => span.start + at.start..span.start + at.end,
+                let place = match p.span {
+                    Some(range) if a.exact => span.start + range.start..span.start + range.end,
                     _ => span.clone(),
                 };
                 let error =
-                    report.error(p.code, at, format!("`{}` of {} {}", attr.name, element.name, p.message));
+                    report.error(p.code, place, format!("`{}` of {} {}", attr.name, element.name, p.message));
                 if let Some(help) = p.help {
                     error.help(help);
                 }

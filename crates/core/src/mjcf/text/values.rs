@@ -31,7 +31,7 @@ const LONGEST_NAME: usize = 1000;
 pub(crate) struct ValueProblem {
     pub(crate) code: &'static Rule,
     /// The invalid bytes of the value's text, or `None` for all of it.
-    pub(crate) at: Option<Range<usize>>,
+    pub(crate) span: Option<Range<usize>>,
     /// The end of a sentence that starts with the attribute: "`size` of geom …".
     pub(crate) message: String,
     pub(crate) help: Option<String>,
@@ -39,7 +39,7 @@ pub(crate) struct ValueProblem {
 
 impl ValueProblem {
     fn new(code: &'static Rule, message: String) -> ValueProblem {
-        ValueProblem { code, at: None, message, help: None }
+        ValueProblem { code, span: None, message, help: None }
     }
 }
 
@@ -109,7 +109,7 @@ fn numbers<T>(text: &str, read: impl Fn(&str) -> Result<T, ValueProblem>) -> Res
         let end = rest.find(is_space).unwrap_or(rest.len());
         let (word, after) = rest.split_at(end);
         let start = text.len() - rest.len();
-        list.push(read(word).map_err(|p| ValueProblem { at: Some(start..start + end), ..p })?);
+        list.push(read(word).map_err(|p| ValueProblem { span: Some(start..start + end), ..p })?);
         rest = after;
     }
 }
@@ -220,7 +220,7 @@ mod tests {
     #[test]
     fn a_problem_points_at_the_number() {
         let problem = parse(AttributeType::Reals(3, 3), "1  x2 3").unwrap_err();
-        assert_eq!(problem.at, Some(3..5));
+        assert_eq!(problem.span, Some(3..5));
         assert_eq!(parse(AttributeType::Ints(1, 1), "99999999999").unwrap_err().code, rules::NUMBER);
         assert_eq!(
             parse(AttributeType::Reals(2, 3), "1").unwrap_err().message,

@@ -53,8 +53,8 @@ pub(crate) fn print(list: &[XmlElement], root: usize) -> String {
     let mut text = String::new();
     let mut open = vec![XmlPart::Start(root)];
     while let Some(piece) = open.pop() {
-        let (XmlPart::Start(at) | XmlPart::End(at)) = piece;
-        let Some(element) = list.get(at) else { continue };
+        let (XmlPart::Start(index) | XmlPart::End(index)) = piece;
+        let Some(element) = list.get(index) else { continue };
         let plain = element.name != "include" && !element.namespace;
         if let XmlPart::End(_) = piece {
             text.extend(plain.then(|| format!("</{}>", element.name)));
@@ -68,7 +68,7 @@ pub(crate) fn print(list: &[XmlElement], root: usize) -> String {
             }
             text.push('>');
         }
-        open.push(XmlPart::End(at));
+        open.push(XmlPart::End(index));
         open.extend(element.children.iter().rev().map(|c| XmlPart::Start(*c)));
     }
     text
@@ -109,12 +109,12 @@ pub(crate) fn parse(
     let root = list.len();
     let mut stack = vec![(document.root_element(), None)];
     while let Some((xml, parent)) = stack.pop() {
-        let at = list.len();
+        let index = list.len();
         if let Some(parent) = parent.and_then(|p: usize| list.get_mut(p)) {
-            parent.children.push(at);
+            parent.children.push(index);
         }
         list.push(element(prepared, base, &xml));
-        let below: Vec<_> = listed(xml.children().filter(Node::is_element).map(|x| (x, Some(at))));
+        let below: Vec<_> = listed(xml.children().filter(Node::is_element).map(|x| (x, Some(index))));
         stack.extend(below.into_iter().rev());
     }
     Some(root)
@@ -145,11 +145,11 @@ fn element(prepared: &Prepared, base: usize, xml: &Node) -> XmlElement {
 /// Reports a syntax error of the XML in plain words.
 fn explain(prepared: &Prepared, base: usize, error: &Error, report: &mut Diagnostics) {
     let text = &*prepared.text;
-    let at = match error {
+    let start = match error {
         Error::UnclosedRootNode | Error::UnexpectedEndOfStream | Error::NoRootNode => text.len(),
         _ => offset(text, error.pos().row, error.pos().col),
     };
-    let end = text.get(at..).and_then(|rest| rest.chars().next()).map_or(at, |c| at + c.len_utf8());
+    let end = text.get(start..).and_then(|rest| rest.chars().next()).map_or(start, |c| start + c.len_utf8());
     let (message, help) = match error {
         Error::UnexpectedCloseTag(open, close, _) => (
             format!("`<{open}>` is closed by `</{close}>`"),
@@ -191,8 +191,8 @@ fn explain(prepared: &Prepared, base: usize, error: &Error, report: &mut Diagnos
             (format!("not well-formed XML: {words}"), "compare this tag with a working one".into())
         }
     };
-    let (at, end) = (prepared.written(at), prepared.written(end));
-    report.error(rules::XML, base + at..base + end, message).help(help);
+    let (start, end) = (prepared.written(start), prepared.written(end));
+    report.error(rules::XML, base + start..base + end, message).help(help);
 }
 
 /// The byte offset of a line and a column. Both count from 1, the column in characters.

@@ -16,8 +16,8 @@ use std::fmt::Write;
 #[test]
 fn an_island_that_is_too_large_is_solved_without_its_hessian() {
     let ball = |i: usize| {
-        let at = 1e-3 * i as f64;
-        format!("<body pos='{at} {} 0'><freejoint/><geom size='0.3'/></body>", at * at)
+        let position = 1e-3 * i as f64;
+        format!("<body pos='{position} {} 0'><freejoint/><geom size='0.3'/></body>", position * position)
     };
     let text: String = (0..200).map(ball).collect();
     let m = tests::compile(&format!("<mujoco><worldbody>{text}</worldbody></mujoco>")).unwrap();

@@ -69,11 +69,11 @@ impl TreeOrder {
 
     /// Appends a tree and all trees reachable from it, in breadth-first order.
     fn reach(&mut self, start: usize) {
-        let mut at = self.list.len();
+        let mut next = self.list.len();
         self.list.push(start as u32);
         self.seen[start] = true;
-        while let Some(&t) = self.list.get(at) {
-            at += 1;
+        while let Some(&t) = self.list.get(next) {
+            next += 1;
             for [_, b] in &self.pairs[self.begin[t as usize] as usize..self.begin[t as usize + 1] as usize] {
                 if !std::mem::replace(&mut self.seen[*b as usize], true) {
                     self.list.push(*b);

@@ -205,8 +205,8 @@ pub(crate) fn pair_difference(
                 (shift, turn) = (add_scaled(shift, v, sign), add_scaled(turn, w, sign));
             }
         }
-        let at = out.len;
-        (out.dofs[at], out.values[at], out.turns[at]) = (dof as u32, shift, turn);
+        let index = out.len;
+        (out.dofs[index], out.values[index], out.turns[index]) = (dof as u32, shift, turn);
         out.len += 1;
     }
 }

@@ -188,7 +188,7 @@ impl Trees {
                 let com = flat(mat_mul_vec(&turn, fixed.com));
                 let across = mat_t_mul_vec(&turn, normal);
                 *link = PlanarLink {
-                    at: flat(mat_mul_vec(&above, fixed.at)),
+                    offset: flat(mat_mul_vec(&above, fixed.position)),
                     com,
                     sense: along.round(),
                     mass: fixed.mass,

@@ -9,7 +9,7 @@ pub(super) type Vec2 = [f64; 2];
 pub(super) struct PlanarLink {
     /// Vectors from the previous anchor to the anchor, and from the anchor to the centre of mass, in the default
     /// configuration.
-    pub(super) at: Vec2,
+    pub(super) offset: Vec2,
     pub(super) com: Vec2,
     /// Sign of the hinge axis relative to the normal of the plane.
     pub(super) sense: f64,
@@ -20,7 +20,7 @@ pub(super) struct PlanarLink {
     pub(super) reference: f64,
     /// Index of its coordinate in `qpos`.
     pub(super) coordinate: usize,
-    /// Current values of `at`, rotated by a further 90°, and of `com`.
+    /// Current values of `offset`, rotated by a further 90°, and of `com`.
     pub(super) quarter: Vec2,
     pub(super) arm: Vec2,
     /// Current position of the anchor.
@@ -68,12 +68,12 @@ pub(super) fn forward_kinematics(links: &mut [PlanarLink], qpos: &[f64]) {
     let (mut angle, mut cos, mut sin) = (0.0, 1.0, 0.0);
     let mut anchor = [0.0; 2];
     for link in links {
-        let at = rotated(link.at, sin, cos);
-        anchor = add(anchor, at);
+        let offset = rotated(link.offset, sin, cos);
+        anchor = add(anchor, offset);
         angle += link.sense * (qpos.get(link.coordinate).copied().unwrap_or(0.0) - link.reference);
         (sin, cos) = libm::sincos(angle);
         link.arm = rotated(link.com, sin, cos);
-        link.quarter = [-at[1], at[0]];
+        link.quarter = [-offset[1], offset[0]];
         link.anchor = anchor;
     }
 }

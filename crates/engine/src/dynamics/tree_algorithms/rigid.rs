@@ -114,14 +114,14 @@ impl MovingBody {
     /// The inertia of body `b`, which is the moving body or fixed to it, about the anchor.
     fn inertia_of(&self, m: &Model, mut b: usize) -> [f64; 10] {
         let (mass, moments) = (m.body_mass[b], rows::<3>(&m.body_inertia)[b]);
-        let (mut at, mut axes) = (rows::<3>(&m.body_ipos)[b], quat_to_mat(rows::<4>(&m.body_iquat)[b]));
+        let (mut position, mut axes) = (rows::<3>(&m.body_ipos)[b], quat_to_mat(rows::<4>(&m.body_iquat)[b]));
         while b != self.body {
             let frame = quat_to_mat(quat_normalize(rows::<4>(&m.body_quat)[b]));
-            at = add(mat_mul_vec(&frame, at), rows::<3>(&m.body_pos)[b]);
+            position = add(mat_mul_vec(&frame, position), rows::<3>(&m.body_pos)[b]);
             axes = mat_mul(&frame, &axes);
             b = m.body_parentid[b] as usize;
         }
-        inertia_about(moments, &axes, sub(at, self.anchor(m)), mass)
+        inertia_about(moments, &axes, sub(position, self.anchor(m)), mass)
     }
 
     /// The anchor in the frame of the body. For a free joint it is the origin.

@@ -15,8 +15,8 @@ fn controls(m: &Model, i: usize) -> Range<usize> {
 /// The address of the history of actuator `i`, and its number of samples, or `None` if it has no history.
 fn buffer(m: &Model, i: usize) -> Option<(Range<usize>, usize)> {
     let n = usize::try_from(m.actuator_history[2 * i]).ok().filter(|&n| n > 0)?;
-    let at = usize::try_from(m.actuator_historyadr[i]).ok()?;
-    Some((at..at + history::size(n, m.actuator_ctrlnum[i] as usize), n))
+    let address = usize::try_from(m.actuator_historyadr[i]).ok()?;
+    Some((address..address + history::size(n, m.actuator_ctrlnum[i] as usize), n))
 }
 
 /// Fills `ctrl` with the controls that are applied at the current time.

@@ -28,11 +28,11 @@ pub(super) struct ServoInputs {
 impl ServoInputs {
     pub(super) fn new(m: &Model, i: usize, ctrl: &[f64]) -> ServoInputs {
         let spec = m.actuator_ctrlspec[i];
-        let mut at = m.actuator_ctrladr[i] as usize;
-        let end = at + m.actuator_ctrlnum[i] as usize;
+        let mut address = m.actuator_ctrladr[i] as usize;
+        let end = address + m.actuator_ctrlnum[i] as usize;
         let mut take = |bit: i32| {
-            let here = (spec & bit != 0 && at < end).then(|| ctrl[at]);
-            at += usize::from(here.is_some());
+            let here = (spec & bit != 0 && address < end).then(|| ctrl[address]);
+            address += usize::from(here.is_some());
             here
         };
         let (pos, vel, ff, voltage) = (take(POS), take(VEL), take(FF), take(VOLTAGE));

@@ -159,11 +159,11 @@ pub(super) fn rates(m: &Model, d: &mut Fields, i: usize, ctrl: &mut [f64]) {
     }
 }
 
-/// Activation `at` of a motor at the end of the step. The current and the bristle deflection are integrated exactly, for constant
+/// Activation `index` of a motor at the end of the step. The current and the bristle deflection are integrated exactly, for constant
 /// voltage and speed.
-pub(super) fn next(m: &Model, d: &Fields, i: usize, at: usize, rate: f64) -> f64 {
+pub(super) fn next(m: &Model, d: &Fields, i: usize, index: usize, rate: f64) -> f64 {
     let motor = Motor::new(m, d, i);
-    let (act, h, slot) = (d.act[at], m.opt.timestep, Some(at - motor.first));
+    let (act, h, slot) = (d.act[index], m.opt.timestep, Some(index - motor.first));
     if slot == motor.slots.current {
         exact(act, rate, motor.dyn_[0], h)
     } else if slot == motor.slots.bristle {
@@ -176,10 +176,10 @@ pub(super) fn next(m: &Model, d: &Fields, i: usize, at: usize, rate: f64) -> f64
     }
 }
 
-/// A value of activation `at` of a motor, clamped to its limits. Only the integral of the error has a limit.
-pub(super) fn within(m: &Model, d: &Fields, i: usize, at: usize, value: f64) -> f64 {
+/// A value of activation `index` of a motor, clamped to its limits. Only the integral of the error has a limit.
+pub(super) fn within(m: &Model, d: &Fields, i: usize, index: usize, value: f64) -> f64 {
     let motor = Motor::new(m, d, i);
-    motor.within(Some(at - motor.first), value)
+    motor.within(Some(index - motor.first), value)
 }
 
 /// The torque of the winding. Without a state for the current, the back EMF is not included.
@@ -187,8 +187,9 @@ pub(super) fn electric(m: &Model, d: &Fields, i: usize, ctrl: &[f64]) -> f64 {
     let motor = Motor::new(m, d, i);
     match motor.slots.current {
         Some(s) => {
-            let at = motor.first + s;
-            let current = if m.actuator_actearly[i] { next(m, d, i, at, d.act_dot[at]) } else { d.act[at] };
+            let index = motor.first + s;
+            let current =
+                if m.actuator_actearly[i] { next(m, d, i, index, d.act_dot[index]) } else { d.act[index] };
             motor.constant() * current
         }
         None => {

@@ -14,8 +14,8 @@ pub(super) fn rates(m: &Model, d: &mut Fields, i: usize, ctrl: &mut [f64]) {
     let p = prm(&m.actuator_dynprm, i);
     match m.actuator_dyntype[i] {
         dyntype::INTEGRATOR => {
-            for (at, k) in states.zip(u..) {
-                d.act_dot[at] = ctrl[k];
+            for (index, k) in states.zip(u..) {
+                d.act_dot[index] = ctrl[k];
             }
         }
         dyntype::FILTER | dyntype::FILTEREXACT => {
@@ -36,8 +36,8 @@ pub(crate) fn advance(m: &Model, d: &mut Fields) {
     }
     for i in 0..m.nactuator {
         let off = switched_off(m, i);
-        for at in states(m, i) {
-            d.act[at] = next(m, d, i, at, if off { 0.0 } else { d.act_dot[at] });
+        for index in states(m, i) {
+            d.act[index] = next(m, d, i, index, if off { 0.0 } else { d.act_dot[index] });
         }
         if integrates(m, i) {
             anchor(m, d, i);
@@ -51,8 +51,8 @@ pub(crate) fn arrive(m: &Model, d: &mut Fields, values: &[f64]) {
         return;
     }
     for i in (0..m.nactuator).filter(|&i| !switched_off(m, i)) {
-        for at in states(m, i) {
-            d.act[at] = within(m, d, i, at, values[at]);
+        for index in states(m, i) {
+            d.act[index] = within(m, d, i, index, values[index]);
         }
         if integrates(m, i) {
             anchor(m, d, i);

@@ -72,8 +72,8 @@ impl Pid {
     fn setpoint(&self, m: &Model, d: &Fields, i: usize, pos: f64) -> f64 {
         let turn = full_turn_length(m, i);
         let mut pos = pos;
-        if let Some(at) = self.slew {
-            let last = d.act[at];
+        if let Some(index) = self.slew {
+            let last = d.act[index];
             let step = m.actuator_dynprm[10 * i + 1] * m.opt.timestep;
             pos = clip(turn.map_or(pos, |turn| nearest(pos, last, turn)), [last - step, last + step]);
         }
@@ -85,15 +85,15 @@ impl Pid {
 pub(super) fn rates(m: &Model, d: &mut Fields, i: usize, ctrl: &[f64]) {
     let pid = Pid::new(m, i);
     let pos = ServoInputs::new(m, i, ctrl).pos.unwrap_or(0.0);
-    if let Some(at) = pid.slew {
-        let last = d.act[at];
+    if let Some(index) = pid.slew {
+        let last = d.act[index];
         let step = m.actuator_dynprm[10 * i + 1] * m.opt.timestep;
         let to = full_turn_length(m, i).map_or(pos, |turn| nearest(pos, last, turn));
-        d.act_dot[at] = (clip(to, [last - step, last + step]) - last) / m.opt.timestep;
+        d.act_dot[index] = (clip(to, [last - step, last + step]) - last) / m.opt.timestep;
     }
-    if let Some(at) = pid.integral {
+    if let Some(index) = pid.integral {
         let error = pid.setpoint(m, d, i, pos) - d.actuator_length[m.actuator_outadr[i] as usize];
-        d.act_dot[at] = anti_windup_rate(error, d.act[at], m.actuator_dynprm[10 * i]);
+        d.act_dot[index] = anti_windup_rate(error, d.act[index], m.actuator_dynprm[10 * i]);
     }
 }
 
@@ -104,7 +104,7 @@ pub(super) fn pid(m: &Model, d: &Fields, i: usize, ctrl: &[f64]) -> f64 {
     let states = Pid::new(m, i);
     let inputs = ServoInputs::new(m, i, ctrl);
     let setpoint = inputs.pos.map_or(0.0, |pos| states.setpoint(m, d, i, pos));
-    let sum = states.integral.map_or(0.0, |at| activation::activation_of_step(m, d, i, at));
+    let sum = states.integral.map_or(0.0, |index| activation::activation_of_step(m, d, i, index));
     let (error, slip) = (setpoint - d.actuator_length[o], inputs.vel - d.actuator_velocity[o]);
     b[0] - b[1] * error - b[2] * slip + m.actuator_gainprm[10 * i] * sum + inputs.ff
 }
@@ -112,7 +112,7 @@ pub(super) fn pid(m: &Model, d: &Fields, i: usize, ctrl: &[f64]) -> f64 {
 /// The torque kp log(q⁻¹ q*) + constant - kv ω, which rotates the orientation q towards q*.
 pub(super) fn orientation(m: &Model, d: &Fields, i: usize, ctrl: &[f64]) -> Vec3 {
     let o = m.actuator_outadr[i] as usize;
-    let at = |list: &[f64], first: usize| [list[first], list[first + 1], list[first + 2]];
+    let vector_at = |list: &[f64], first: usize| [list[first], list[first + 1], list[first + 2]];
     let u = m.actuator_ctrladr[i] as usize;
     let states = states(m, i);
     let target = if m.actuator_ctrlspec[i] == QUAT {
@@ -120,9 +120,9 @@ pub(super) fn orientation(m: &Model, d: &Fields, i: usize, ctrl: &[f64]) -> Vec3
     } else if states.len() == 3 {
         rotation(std::array::from_fn(|k| activation::activation_of_step(m, d, i, states.start + k)))
     } else {
-        rotation(at(ctrl, u))
+        rotation(vector_at(ctrl, u))
     };
-    let current = rotation(at(&d.actuator_length, o));
+    let current = rotation(vector_at(&d.actuator_length, o));
     let error = quat_to_vel(quat_mul(quat_conj(current), target));
     let (kp, b) = (m.actuator_gainprm[10 * i], prm(&m.actuator_biasprm, i));
     std::array::from_fn(|k| kp * error[k] + b[0] + b[2] * d.actuator_velocity[o + k])

@@ -223,8 +223,8 @@ fn slope(m: &Model, frame: &FluidFrame, shape: &FluidShape, medium: Medium) -> [
         FluidShape::Ellipsoid(ellipsoid) if medium == Medium::Drag => {
             let [torque, force] = ellipsoid.drag(frame.motion);
             for (r, row) in b.iter_mut().enumerate() {
-                let (from, at) = if r < 3 { (&torque, 0) } else { (&force, 3) };
-                row[at..at + 3].copy_from_slice(&from[3 * (r % 3)..][..3]);
+                let (from, column) = if r < 3 { (&torque, 0) } else { (&force, 3) };
+                row[column..column + 3].copy_from_slice(&from[3 * (r % 3)..][..3]);
             }
         }
         FluidShape::Ellipsoid(ellipsoid) => b = ellipsoid.derivative(frame.motion),

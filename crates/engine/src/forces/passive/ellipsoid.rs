@@ -216,7 +216,7 @@ mod tests {
     fn cases() -> Vec<(Ellipsoid, Spatial, Spatial)> {
         let case = |line: &str| {
             let x: Vec<f64> = line.split(' ').map(|w| w.parse().unwrap()).collect();
-            let part = |at: usize, n: usize| x[at..at + n].to_vec();
+            let part = |start: usize, n: usize| x[start..start + n].to_vec();
             let mut m = Model { geom_type: vec![x[2] as i32], geom_size: part(3, 3), ..Model::default() };
             (m.opt.density, m.opt.viscosity) = (x[0], x[1]);
             let mut fluid: [f64; 12] = part(6, 12).try_into().unwrap();
@@ -243,12 +243,12 @@ mod tests {
             let derivative = ellipsoid.derivative(motion);
             for c in 0..6 {
                 let h = 1e-5 * (1.0 + motion[c].abs());
-                let at = |x: f64| {
+                let force_at = |x: f64| {
                     let mut moved = motion;
                     moved[c] += x;
                     ellipsoid.force(moved)
                 };
-                let slope = scale(sub(at(h), at(-h)), 0.5 / h);
+                let slope = scale(sub(force_at(h), force_at(-h)), 0.5 / h);
                 let size = derivative.as_flattened().iter().fold(1.0f64, |s, x| s.max(x.abs()));
                 for r in 0..6 {
                     let error = (derivative[r][c] - slope[r]).abs();

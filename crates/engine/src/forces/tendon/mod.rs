@@ -59,9 +59,9 @@ fn fixed(m: &Model, d: &mut Fields, t: usize) -> f64 {
         // Joints are usually in the order of their degrees of freedom.
         let dof = m.jnt_dofadr[joint];
         let found = if columns.get(next) == Some(&dof) { Ok(next) } else { columns.binary_search(&dof) };
-        if let Ok(at) = found {
-            jacobian[at] += coefficient;
-            next = at + 1;
+        if let Ok(index) = found {
+            jacobian[index] += coefficient;
+            next = index + 1;
         }
     }
     length

@@ -49,24 +49,24 @@ struct Leg {
 /// The legs of a path in order.
 struct Legs<'a> {
     m: &'a Model,
-    at: usize,
+    next_wrap: usize,
     end: usize,
     divisor: f64,
 }
 
 impl<'a> Legs<'a> {
     fn new(m: &'a Model, t: usize) -> Legs<'a> {
-        let at = m.tendon_adr[t] as usize;
-        Legs { m, at, end: at + m.tendon_num[t] as usize, divisor: 1.0 }
+        let first = m.tendon_adr[t] as usize;
+        Legs { m, next_wrap: first, end: first + m.tendon_num[t] as usize, divisor: 1.0 }
     }
 
     /// The kind of an object. The end of the path counts as a pulley, because both end a branch.
-    fn kind(&self, at: usize) -> i32 {
-        if at < self.end { self.m.wrap_type[at] } else { wraptype::PULLEY }
+    fn kind(&self, wrap: usize) -> i32 {
+        if wrap < self.end { self.m.wrap_type[wrap] } else { wraptype::PULLEY }
     }
 
-    fn object(&self, at: usize) -> usize {
-        self.m.wrap_objid[at] as usize
+    fn object(&self, wrap: usize) -> usize {
+        self.m.wrap_objid[wrap] as usize
     }
 }
 
@@ -75,15 +75,15 @@ impl Iterator for Legs<'_> {
 
     fn next(&mut self) -> Option<Leg> {
         let m = self.m;
-        if self.at + 1 >= self.end {
+        if self.next_wrap + 1 >= self.end {
             return None;
         }
-        let after_pulley = self.kind(self.at) == wraptype::PULLEY;
+        let after_pulley = self.kind(self.next_wrap) == wraptype::PULLEY;
         if after_pulley {
-            self.divisor = m.wrap_prm[self.at];
-            self.at += 1;
+            self.divisor = m.wrap_prm[self.next_wrap];
+            self.next_wrap += 1;
         }
-        let from = self.at;
+        let from = self.next_wrap;
         let geom = from + 1;
         let over = matches!(self.kind(geom), wraptype::SPHERE | wraptype::CYLINDER).then(|| {
             // A program may write this parameter. Any number that is not the id of a site means that there is no side site.
@@ -92,7 +92,7 @@ impl Iterator for Legs<'_> {
         });
         let to = if over.is_some() { from + 2 } else { from + 1 };
         let ends = self.kind(to + 1) == wraptype::PULLEY;
-        self.at = if ends { to + 1 } else { to };
+        self.next_wrap = if ends { to + 1 } else { to };
         let (from, to) = (self.object(from), self.object(to));
         Some(Leg { from, to, over, divisor: self.divisor, after_pulley, ends })
     }
@@ -178,15 +178,15 @@ fn straight_segment(
     let values = &mut out.jacobian[row];
     // Degrees of freedom in descending order, in which `point_difference` visits them. Those that move both ends do
     // not change the distance.
-    let mut at = columns.len();
+    let mut index = columns.len();
     for (k, side) in walk::moving_one(m, bodies) {
         let sign = if side == 1 { 1.0 } else { -1.0 };
-        while at > 0 && columns[at - 1] as usize >= k {
-            at -= 1;
+        while index > 0 && columns[index - 1] as usize >= k {
+            index -= 1;
         }
-        if columns.get(at).is_some_and(|&c| c as usize == k) {
+        if columns.get(index).is_some_and(|&c| c as usize == k) {
             let (_, move_) = jacobian::dof_motion(m, d, k, points[side]);
-            values[at] += sign * dot(move_, u) / divisor;
+            values[index] += sign * dot(move_, u) / divisor;
         }
     }
     length

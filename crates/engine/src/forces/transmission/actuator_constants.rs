@@ -31,8 +31,8 @@ pub fn at_default(m: &mut Model, d: &Fields) {
     let mut x = vec![0.0; m.nv];
     for o in 0..m.nout {
         x.fill(0.0);
-        for at in row(d, o) {
-            x[d.moment_colind[at] as usize] = d.actuator_moment[at];
+        for entry in row(d, o) {
+            x[d.moment_colind[entry] as usize] = d.actuator_moment[entry];
         }
         mass::solve(m, &d.qLD, &d.qLDiagInv, &mut x, 0..m.nv);
         m.actuator_acc0[o] = x.iter().map(|a| a * a).sum::<f64>().sqrt();
@@ -55,9 +55,10 @@ pub fn critical_damping(m: &mut Model, d: &Fields) {
             continue;
         }
         let mass: f64 = row(d, m.actuator_outadr[i] as usize)
-            .filter(|&at| d.actuator_moment[at].abs() > crate::math::MINVAL)
-            .map(|at| {
-                m.dof_M0[d.moment_colind[at] as usize] / (d.actuator_moment[at] * d.actuator_moment[at])
+            .filter(|&entry| d.actuator_moment[entry].abs() > crate::math::MINVAL)
+            .map(|entry| {
+                m.dof_M0[d.moment_colind[entry] as usize]
+                    / (d.actuator_moment[entry] * d.actuator_moment[entry])
             })
             .sum();
         m.actuator_biasprm[10 * i + 2] = -2.0 * ratio * (kp * mass).max(0.0).sqrt();

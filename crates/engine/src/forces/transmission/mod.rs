@@ -23,7 +23,7 @@ struct MomentRows {
     colind: Vec<i32>,
     values: Vec<f64>,
     /// The index of the next entry.
-    at: usize,
+    cursor: usize,
 }
 
 impl MomentRows {
@@ -31,17 +31,17 @@ impl MomentRows {
     #[cfg_attr(not(feature = "small"), inline(always))]
     fn push(&mut self, dof: usize, value: f64) {
         if value != 0.0
-            && let (Some(k), Some(x)) = (self.colind.get_mut(self.at), self.values.get_mut(self.at))
+            && let (Some(k), Some(x)) = (self.colind.get_mut(self.cursor), self.values.get_mut(self.cursor))
         {
             (*k, *x) = (dof as i32, value);
-            self.at += 1;
+            self.cursor += 1;
         }
     }
 
     /// Reverses a row that was written from the last degree of freedom to the first.
     fn reverse_from(&mut self, start: usize) {
-        self.colind[start..self.at].reverse();
-        self.values[start..self.at].reverse();
+        self.colind[start..self.cursor].reverse();
+        self.values[start..self.cursor].reverse();
     }
 }
 
@@ -75,13 +75,13 @@ pub fn transmissions(m: &Model, d: &mut Fields, w: &mut ForceScratch) {
     let mut out = MomentRows {
         colind: std::mem::take(&mut d.moment_colind),
         values: std::mem::take(&mut d.actuator_moment),
-        at: 0,
+        cursor: 0,
     };
     let outputs = m.actuator_outadr.iter().zip(&m.actuator_outnum);
     let targets = m.actuator_trntype.iter().zip(m.actuator_trnid.as_chunks().0);
     for (i, ((&first, &number), (&kind, &[target, _]))) in outputs.zip(targets).enumerate() {
         for o in first as usize..(first + number) as usize {
-            let start = out.at;
+            let start = out.cursor;
             if !asleep::actuator(m, d, i) {
                 d.actuator_length[o] = match kind {
                     trntype::JOINT | trntype::JOINTINPARENT => {
@@ -91,7 +91,7 @@ pub fn transmissions(m: &Model, d: &mut Fields, w: &mut ForceScratch) {
                     _ => beyond_joints(m, d, [i, o], w, &mut out),
                 };
             }
-            (d.moment_rowadr[o], d.moment_rownnz[o]) = (start as i32, (out.at - start) as i32);
+            (d.moment_rowadr[o], d.moment_rownnz[o]) = (start as i32, (out.cursor - start) as i32);
         }
     }
     (d.moment_colind, d.actuator_moment) = (out.colind, out.values);
@@ -165,9 +165,9 @@ fn at_joint(m: &Model, d: &Fields, j: usize, in_parent: bool, gear: &[f64; 6], o
 impl MomentRows {
     /// Appends an entry, zero or not. Rows of joints and tendons have a fixed pattern.
     fn push_any(&mut self, dof: usize, value: f64) {
-        if let (Some(k), Some(x)) = (self.colind.get_mut(self.at), self.values.get_mut(self.at)) {
+        if let (Some(k), Some(x)) = (self.colind.get_mut(self.cursor), self.values.get_mut(self.cursor)) {
             (*k, *x) = (dof as i32, value);
-            self.at += 1;
+            self.cursor += 1;
         }
     }
 }
@@ -200,8 +200,8 @@ pub(crate) fn apply_forces(m: &Model, d: &mut Fields) {
     d.qfrc_actuator.fill(0.0);
     for o in 0..m.nout {
         let force = d.actuator_force[o];
-        for at in row(d, o) {
-            d.qfrc_actuator[d.moment_colind[at] as usize] += d.actuator_moment[at] * force;
+        for entry in row(d, o) {
+            d.qfrc_actuator[d.moment_colind[entry] as usize] += d.actuator_moment[entry] * force;
         }
     }
 }

@@ -32,7 +32,7 @@ pub(super) fn site(m: &Model, d: &Fields, s: usize, gear: [f64; 6], out: &mut Mo
     let (force, torque) = parts(gear);
     let (force, torque) = (mat_mul_vec(mat, force), mat_mul_vec(mat, torque));
     let point = rows::<3>(&d.site_xpos)[s];
-    let start = out.at;
+    let start = out.cursor;
     for k in moving(m, site_body(m, s)) {
         let (turn, shift) = dof_motion(m, d, k, point);
         out.push(k, dot(shift, force) + dot(turn, torque));
@@ -62,7 +62,7 @@ pub(super) fn pose_in_reference_frame(
     }
     let (force, torque) = (mat_mul_vec(mat, along), mat_mul_vec(mat, about));
     let bodies = [s, reference].map(|s| site_body(m, s));
-    let start = out.at;
+    let start = out.cursor;
     for (k, side) in moving_either(m, bodies) {
         let (point, sign) = match side {
             Side::First => (points[0], 1.0),
@@ -86,7 +86,7 @@ pub(super) fn orientation(
     out: &mut MomentRows,
 ) -> f64 {
     let direction = column(&rows::<9>(&d.site_xmat)[s], axis);
-    let start = out.at;
+    let start = out.cursor;
     for (k, side) in moving_either(m, [s, reference].map(|s| site_body(m, s))) {
         let sign = match side {
             Side::First => 1.0,
@@ -126,7 +126,7 @@ pub(super) fn crank(
         let slope = 1.0 - along / root;
         (along - root, add_scaled(scale(axis, slope), v, 1.0 / root), scale(v, slope))
     };
-    let start = out.at;
+    let start = out.cursor;
     for (k, side) in moving_either(m, [crank, slider].map(|s| site_body(m, s))) {
         let change = match side {
             Side::First => dot(by_v, dof_motion(m, d, k, points[0]).1),

@@ -133,7 +133,7 @@ fn each_prism(
     let [sx, sy, _, base] = field.size;
     let cells = |[low, high]: &[f64; 2], half: f64, n: usize| -> RangeInclusive<usize> {
         let last = n as f64 - 1.0;
-        let place = |at: f64| (at + half) / (2.0 * half) * last;
+        let place = |coordinate: f64| (coordinate + half) / (2.0 * half) * last;
         // Casts saturate, so any float becomes a valid index.
         let (low, high) = (place(low - around).floor().max(0.0), place(high + around).ceil().max(0.0));
         low as usize..=(high as usize).min(n.saturating_sub(1))

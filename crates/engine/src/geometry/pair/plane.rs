@@ -12,17 +12,17 @@ fn touch(normal: Vec3, dist: f64, point: Vec3) -> ContactPoint {
     ContactPoint { dist, pos: add_scaled(point, normal, -0.5 * dist), normal, tangent: [0.0; 3] }
 }
 
-/// The contact of a ball and a plane through the point `at`. Its distance is the height of the centre minus the
+/// The contact of a ball and a plane through `point`. Its distance is the height of the centre minus the
 /// radius. Its position is halfway between the lowest point of the ball and the plane.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn ball_on_plane(
-    at: Vec3,
+    point: Vec3,
     normal: Vec3,
     centre: Vec3,
     radius: f64,
     margin: f64,
 ) -> Option<ContactPoint> {
-    let dist = dot(sub(centre, at), normal) - radius;
+    let dist = dot(sub(centre, point), normal) - radius;
     if dist > margin {
         return None;
     }
@@ -127,7 +127,7 @@ pub(super) fn mesh(plane: &Shape, other: &Shape, margin: f64, out: &mut Vec<Cont
     let normal = plane.axis(2);
     let mesh = &other.mesh();
     let down = scale(mat_t_mul_vec(&other.mat, normal), -1.0);
-    let at = |v: usize| {
+    let contact_at = |v: usize| {
         let point = other.world(mesh.vertex(v));
         touch(normal, dot(sub(point, plane.pos), normal), point)
     };
@@ -135,7 +135,7 @@ pub(super) fn mesh(plane: &Shape, other: &Shape, margin: f64, out: &mut Vec<Cont
         Some(hull) => hull.vertex[climb(mesh, hull, down, 0).0] as usize,
         None => search(mesh, down, None),
     };
-    let first = at(lowest);
+    let first = contact_at(lowest);
     if first.dist > margin {
         return;
     }

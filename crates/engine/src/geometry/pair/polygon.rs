@@ -247,9 +247,9 @@ fn box_corner(s: &Shape, corner: Vec3, out: &mut Feature) {
 
 /// Collects the hull faces and edges of a mesh that meet at a vertex.
 fn mesh_corner(s: &Shape, hull_faces: &HullFaces, vertex: usize, corner: Vec3, out: &mut Feature) {
-    for (index, at) in hull_faces.around(vertex) {
+    for (index, position) in hull_faces.around(vertex) {
         let list = hull_faces.vertices(index);
-        let other = list[(at + 1) % list.len()] as usize;
+        let other = list[(position + 1) % list.len()] as usize;
         out.faces.push(PolygonFace { index, normal: mat_mul_vec(&s.mat, hull_faces.normal(index)) });
         out.edges.push([corner, s.world(s.mesh().vertex(other))]);
     }
@@ -329,9 +329,11 @@ impl ContactPatch {
 /// side is found; it advances as the diagonal turns.
 pub(super) fn largest_quadrilateral(polygon: &[Vec3]) -> [Vec3; MAX_FACE_CONTACTS] {
     let n = polygon.len();
-    let at = |k: usize| polygon[k % n];
+    let corner_at = |k: usize| polygon[k % n];
     // Twice the area, as the cross product of the diagonals.
-    let area = |[i, j, k, l]: [usize; MAX_FACE_CONTACTS]| norm(cross(sub(at(k), at(i)), sub(at(l), at(j))));
+    let area = |[i, j, k, l]: [usize; MAX_FACE_CONTACTS]| {
+        norm(cross(sub(corner_at(k), corner_at(i)), sub(corner_at(l), corner_at(j))))
+    };
     let mut best = [0, 1, 2, 3];
     let mut largest = area(best);
     for i in 0..n {
@@ -355,5 +357,5 @@ pub(super) fn largest_quadrilateral(polygon: &[Vec3]) -> [Vec3; MAX_FACE_CONTACT
             }
         }
     }
-    best.map(at)
+    best.map(corner_at)
 }

@@ -29,25 +29,26 @@ pub(super) struct Figures(BTreeMap<String, FigureRow>);
 impl Figures {
     /// Adds a case with contacts of ten numbers each: distance, position, normal, first tangent. Both lists are in
     /// the same order.
-    pub(super) fn contacts(&mut self, pair: &str, theirs: &[f64], ours: &[f64]) {
+    pub(super) fn contacts(&mut self, pair: &str, recorded: &[f64], computed: &[f64]) {
         let r = self.0.entry(pair.into()).or_default();
         r.cases += 1;
-        r.touching += usize::from(!theirs.is_empty());
-        r.number += usize::from(theirs.len() == ours.len());
+        r.touching += usize::from(!recorded.is_empty());
+        r.number += usize::from(recorded.len() == computed.len());
         let is_equal = |(x, y): (&f64, &f64)| (x - y).abs() <= SAME;
-        r.same += usize::from(theirs.len() == ours.len() && theirs.iter().zip(ours).all(is_equal));
+        r.same +=
+            usize::from(recorded.len() == computed.len() && recorded.iter().zip(computed).all(is_equal));
         let deepest = |list: &[f64]| list.chunks(10).map(|c| c[0]).reduce(f64::min);
-        if let (Some(x), Some(y)) = (deepest(theirs), deepest(ours)) {
+        if let (Some(x), Some(y)) = (deepest(recorded), deepest(computed)) {
             r.depth = r.depth.max((x - y).abs());
         }
     }
 
     /// Adds a case with signed distances.
-    pub(super) fn distance(&mut self, pair: &str, theirs: f64, ours: f64) {
+    pub(super) fn distance(&mut self, pair: &str, recorded: f64, computed: f64) {
         let r = self.0.entry(pair.into()).or_default();
         r.distances += 1;
-        r.near += usize::from((theirs - ours).abs() <= SAME);
-        r.distance = r.distance.max((theirs - ours).abs());
+        r.near += usize::from((recorded - computed).abs() <= SAME);
+        r.distance = r.distance.max((recorded - computed).abs());
     }
 
     /// The contact statistics as a Markdown table.

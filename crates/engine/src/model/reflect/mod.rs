@@ -171,12 +171,12 @@ pub const NFIELD: usize = DATA_AT + DATA_COUNT;
 
 /// The fields as constants with the names of the fields. A misspelt name does not compile.
 macro_rules! ids {
-    ($module:ident, $doc:literal, $ids:ident, $at:expr; $($name:ident: $ty:ty, [$($dim:tt),*], $kind:ident, $stage:ident, $unit:literal, $fdoc:literal;)*) => {
+    ($module:ident, $doc:literal, $ids:ident, $first:expr; $($name:ident: $ty:ty, [$($dim:tt),*], $kind:ident, $stage:ident, $unit:literal, $fdoc:literal;)*) => {
         #[doc = $doc]
         #[allow(non_upper_case_globals)] // MuJoCo's names
         pub mod $module {
             use super::{FieldId, $ids};
-            $(#[doc = $fdoc] pub const $name: FieldId = FieldId($at as u16 + $ids::$name as u16);)*
+            $(#[doc = $fdoc] pub const $name: FieldId = FieldId($first as u16 + $ids::$name as u16);)*
         }
     };
 }

@@ -89,12 +89,12 @@ fn invalid_bytes_are_refused_and_change_nothing() {
     for end in (0..64).chain((64..bytes.len()).step_by(97)) {
         fails(m, &bytes[..end]);
     }
-    for at in (0..64).chain((64..bytes.len()).step_by(131)) {
+    for offset in (0..64).chain((64..bytes.len()).step_by(131)) {
         let mut changed = bytes.clone();
-        changed[at] ^= 1 << (at % 8);
+        changed[offset] ^= 1 << (offset % 8);
         let error = fails(m, &changed);
-        assert_eq!(error == RestoreError::NotData, at < 8);
-        assert_eq!(error == RestoreError::Damaged, at >= 28, "{at} {error}");
+        assert_eq!(error == RestoreError::NotData, offset < 8);
+        assert_eq!(error == RestoreError::Damaged, offset >= 28, "{offset} {error}");
     }
     assert_eq!(fails(m, &[]), RestoreError::NotData);
     assert_eq!(fails(m, b"labdata\n12345678"), RestoreError::Damaged);
@@ -131,10 +131,10 @@ fn hostile_bytes_never_panic() {
         for _ in 0..400 {
             let mut changed = bytes[..bytes.len() - 8].to_vec();
             for _ in 0..1 + random(3) {
-                let at = 28 + random(changed.len() - 28);
+                let offset = 28 + random(changed.len() - 28);
                 let n = 1 + random(8);
                 let with = [0, 1, 0x7f, 0x80, 0xff][random(5)];
-                changed.iter_mut().skip(at).take(n).for_each(|b| *b = with);
+                changed.iter_mut().skip(offset).take(n).for_each(|b| *b = with);
             }
             fingerprint(&changed.clone()).put(&mut changed);
             let Workspace { fields: mut d, scratch: mut s } = Workspace::new(m);

@@ -116,12 +116,12 @@ fn was_moved(m: &Model, d: &Fields, w: &SleepScratch, tree: usize) -> bool {
 /// afterwards, and it ends at the first tree that is already awake.
 fn wake_island(d: &mut Fields, tree: usize, value: i32) {
     let value = if value < 0 { value } else { AWAKE };
-    let mut at = tree;
-    while let Some(slot) = d.tree_asleep.get_mut(at) {
+    let mut current = tree;
+    while let Some(slot) = d.tree_asleep.get_mut(current) {
         let next = *slot;
         *slot = next.min(value);
         match usize::try_from(next) {
-            Ok(next) => at = next,
+            Ok(next) => current = next,
             Err(_) => return,
         }
     }
@@ -129,11 +129,11 @@ fn wake_island(d: &mut Fields, tree: usize, value: i32) {
 
 /// Whether two sleeping trees fell asleep together.
 fn fell_asleep_together(d: &Fields, a: usize, b: usize) -> bool {
-    let mut at = a;
+    let mut current = a;
     for _ in 0..d.tree_asleep.len() {
-        match d.tree_asleep.get(at).map(|&next| usize::try_from(next)) {
+        match d.tree_asleep.get(current).map(|&next| usize::try_from(next)) {
             Some(Ok(next)) if next == b => return true,
-            Some(Ok(next)) => at = next,
+            Some(Ok(next)) => current = next,
             _ => return false,
         }
     }

@@ -111,8 +111,8 @@ impl<'f> MeasureWalk<'f> {
     fn round(&mut self) {
         self.found = TextDimensions { value: Measure::Anything, ..TextDimensions::default() };
         let unit = self.unit;
-        for (at, block) in unit.blocks.iter().enumerate() {
-            for i in unit.range(at as u32) {
+        for (id, block) in unit.blocks.iter().enumerate() {
+            for i in unit.range(id as u32) {
                 if let (Some(op), Some(span)) = (unit.ops.get(i), unit.spans.get(i)) {
                     self.op(op, span);
                 }
@@ -148,36 +148,36 @@ impl<'f> MeasureWalk<'f> {
         let stack = self.stack.iter().copied().chain([id]).collect();
         let mut work = MeasureWalk { stack, ..MeasureWalk::new(around, id, unit) };
         let places: Vec<Operand> = places(unit).collect();
-        for (at, measure) in places.iter().zip(given) {
-            work.set(*at, *measure);
+        for (operand, measure) in places.iter().zip(given) {
+            work.set(*operand, *measure);
         }
         work.iterate_to_fixpoint();
         self.wild |= work.wild;
-        (work.found.value, places.iter().map(|at| work.at(*at)).collect())
+        (work.found.value, places.iter().map(|operand| work.at(*operand)).collect())
     }
 
     /// Adds a possible measure to an operand.
-    pub(super) fn join(&mut self, at: Operand, measure: Measure) {
-        let before = self.slot(at).copied().unwrap_or(Measure::Anything);
-        self.set(at, before.or(measure));
+    pub(super) fn join(&mut self, operand: Operand, measure: Measure) {
+        let before = self.slot(operand).copied().unwrap_or(Measure::Anything);
+        self.set(operand, before.or(measure));
     }
 
-    fn slot(&self, at: Operand) -> Option<&Measure> {
-        match self.unit.same.at(at) {
+    fn slot(&self, operand: Operand) -> Option<&Measure> {
+        match self.unit.same.at(operand) {
             Operand::Number(n) => self.numbers.get(&n.0),
             Operand::Value(v) => self.values.get(&v.0),
         }
     }
 
-    pub(super) fn set(&mut self, at: Operand, measure: Measure) {
-        match self.unit.same.at(at) {
+    pub(super) fn set(&mut self, operand: Operand, measure: Measure) {
+        match self.unit.same.at(operand) {
             Operand::Number(n) => self.numbers.insert(n.0, measure),
             Operand::Value(v) => self.values.insert(v.0, measure),
         };
     }
 
-    pub(super) fn at(&self, at: Operand) -> Measure {
-        match at {
+    pub(super) fn at(&self, operand: Operand) -> Measure {
+        match operand {
             Operand::Number(n) => self.number(n),
             Operand::Value(v) => self.value(v),
         }
@@ -221,7 +221,7 @@ impl<'f> MeasureWalk<'f> {
     }
 
     pub(super) fn clash(&mut self, span: &Span, a: Measure, b: Measure) {
-        if let (Measure::Known(left), Measure::Known(right)) = (a, b)
+        if let (Measure::Dimension(left), Measure::Dimension(right)) = (a, b)
             && a.clashes(b)
         {
             self.found.clashes.push(DimensionClash { span: *span, left, right });

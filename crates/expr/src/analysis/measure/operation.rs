@@ -18,13 +18,13 @@ impl MeasureWalk<'_> {
     pub(super) fn op(&mut self, op: &Op, span: &Span) {
         let (number, value) = (Operand::Number, Operand::Value);
         match *op {
-            Op::Load(d, field, at) => {
-                let m = self.access(Access { field, first: at as usize, count: Some(1) });
+            Op::Load(d, field, index) => {
+                let m = self.access(Access { field, first: index as usize, count: Some(1) });
                 self.set(number(d), m);
             }
             Op::LoadAt(d, view, index) => self.set(number(d), self.element(view, index)),
-            Op::LoadValue(d, view, at) => {
-                self.set(value(d), self.access(element(view, Some(f64::from(at)))));
+            Op::LoadValue(d, view, index) => {
+                self.set(value(d), self.access(element(view, Some(f64::from(index)))));
             }
             Op::LoadValueAt(d, view, index) => self.set(value(d), self.element(view, index)),
             Op::Length(d, _) | Op::Truthy(d, _) => self.set(number(d), Measure::NUMBER),
@@ -83,8 +83,8 @@ impl MeasureWalk<'_> {
             }
             Op::Pick(d, table, _) => self.set(value(d), self.measure_of_members(table)),
             Op::PickNumber(d, table, _) => self.set(number(d), self.measure_of_members(table)),
-            Op::Store(field, at, a) => {
-                self.stored(Access { field, first: at as usize, count: Some(1) }, self.number(a), span);
+            Op::Store(field, index, a) => {
+                self.stored(Access { field, first: index as usize, count: Some(1) }, self.number(a), span);
             }
             Op::StoreAt(view, index, a) => {
                 self.stored(element(view, self.literal(index)), self.number(a), span);
@@ -209,12 +209,14 @@ impl MeasureWalk<'_> {
             given.resize(expected, None);
         }
         given.extend(used.into_iter().map(Some));
-        let measures: Vec<Measure> =
-            given.iter().map(|at| at.map_or(Measure::Anything, |at| self.at(at))).collect();
+        let measures: Vec<Measure> = given
+            .iter()
+            .map(|operand| operand.map_or(Measure::Anything, |operand| self.at(operand)))
+            .collect();
         let (result, after) = self.call(unit, &measures);
-        for (at, measure) in given.into_iter().zip(after) {
-            if let Some(at @ Operand::Value(_)) = at {
-                self.join(at, measure);
+        for (operand, measure) in given.into_iter().zip(after) {
+            if let Some(operand @ Operand::Value(_)) = operand {
+                self.join(operand, measure);
             }
         }
         self.result_measure = result;
@@ -244,7 +246,7 @@ impl MeasureWalk<'_> {
             OperandUse::GivesValue(d) => given.push(Operand::Value(*d)),
             _ => {}
         });
-        given.into_iter().for_each(|at| self.set(at, Measure::Unknown));
+        given.into_iter().for_each(|operand| self.set(operand, Measure::Unknown));
     }
 
     fn stored(&mut self, access: Access, measure: Measure, span: &Span) {
@@ -285,8 +287,8 @@ impl MeasureWalk<'_> {
     fn power(&self, base: Measure, exponent: Measure, literal: Option<f64>) -> Measure {
         match (literal, base, exponent) {
             (Some(x), ..) => base.power(x),
-            (None, Measure::Known(d), _) if d.is_number() => Measure::UNCERTAIN_FACTOR,
-            (None, Measure::Anything, Measure::Known(_)) => Measure::UNCERTAIN_FACTOR,
+            (None, Measure::Dimension(d), _) if d.is_number() => Measure::UNCERTAIN_FACTOR,
+            (None, Measure::Anything, Measure::Dimension(_)) => Measure::UNCERTAIN_FACTOR,
             _ => Measure::Unknown,
         }
     }
@@ -314,9 +316,9 @@ impl MeasureWalk<'_> {
             }
             "atan2" => {
                 together();
-                Measure::Known(Dimension::RADIAN)
+                Measure::Dimension(Dimension::RADIAN)
             }
-            "acos" | "asin" | "atan" => Measure::Known(Dimension::RADIAN),
+            "acos" | "asin" | "atan" => Measure::Dimension(Dimension::RADIAN),
             "isFinite" | "isNaN" => Measure::NUMBER,
             "clz32" | "imul" => Measure::Unknown,
             // The other functions return a number without a unit.

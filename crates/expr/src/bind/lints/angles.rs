@@ -42,9 +42,9 @@ impl LintPass<'_> {
 
     /// Warns if an angle is needed and the host knows that the number is not one.
     fn no_angle(&mut self, span: Span, shape: &ExpressionShape, needs: &str) {
-        let Some((field, at)) = shape.element else { return };
-        let Role::NoAngle(advice) = self.schema.role(field, at) else { return };
-        let what = match self.schema.element_help(field, at) {
+        let Some((field, index)) = shape.element else { return };
+        let Role::NoAngle(advice) = self.schema.role(field, index) else { return };
+        let what = match self.schema.element_help(field, index) {
             Some(what) => format!("{what}, {}", advice.what),
             None => advice.what.to_owned(),
         };
@@ -63,8 +63,8 @@ impl LintPass<'_> {
         to: Option<(FieldKey, usize)>,
         shape: &ExpressionShape,
     ) {
-        let (Some((field, at)), Some(x)) = (to, shape.number()) else { return };
-        if in_degrees(x) && self.schema.role(field, at) == Role::Angle {
+        let (Some((field, index)), Some(x)) = (to, shape.number()) else { return };
+        if in_degrees(x) && self.schema.role(field, index) == Role::Angle {
             self.degrees(span, "this angle is in radians");
         }
     }

@@ -66,8 +66,8 @@ impl LintPass<'_> {
     /// Warns about the first statement after a `return` or a jump.
     pub(super) fn never_reached(&mut self, statements: &[Stmt]) {
         let runs = |s: &&Stmt| !matches!(s.kind, StmtKind::Function { .. } | StmtKind::Empty);
-        let Some(at) = statements.iter().position(|statement| self.leaves(statement)) else { return };
-        if let Some(dead) = statements.iter().skip(at + 1).find(runs) {
+        let Some(index) = statements.iter().position(|statement| self.leaves(statement)) else { return };
+        if let Some(dead) = statements.iter().skip(index + 1).find(runs) {
             self.found.push(
                 Finding::warning(rules::UNREACHABLE, dead.span, "this is never reached")
                     .why("the statement before it always leaves")

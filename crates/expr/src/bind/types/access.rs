@@ -19,7 +19,7 @@ const MAX_LISTED: usize = 4;
 
 /// The name of a `ctx` variable.
 pub(super) enum GlobalName {
-    Known(String),
+    Constant(String),
     Computed(Ir),
 }
 
@@ -135,7 +135,7 @@ impl<'a> Binder<'a> {
     pub(super) fn global_name(&mut self, index: &'a Expr) -> Attempt<GlobalName> {
         let ir = self.value(index)?;
         match ir.as_constant() {
-            Some(name @ (Value::String(_) | Value::Number(_))) => Ok(GlobalName::Known(name.to_string())),
+            Some(name @ (Value::String(_) | Value::Number(_))) => Ok(GlobalName::Constant(name.to_string())),
             _ => {
                 // `'q' + i` names only variables that begin with `q`.
                 let begins = match &ir.kind {
@@ -152,7 +152,7 @@ impl<'a> Binder<'a> {
 
     fn read_named_global(&mut self, index: &'a Expr, span: Span) -> Attempt<Ir> {
         match self.global_name(index)? {
-            GlobalName::Known(name) => self.global(&name, span),
+            GlobalName::Constant(name) => self.global(&name, span),
             GlobalName::Computed(ir) => Ok(Ir::new(IrKind::GlobalNamed(Box::new(ir)), Type::Any, span)),
         }
     }
@@ -176,8 +176,8 @@ impl<'a> Binder<'a> {
         }
         match (ir.as_constant(), ir.ty) {
             (Some(Value::Number(x)), _) => {
-                let at = self.known_index(field, *x, index.span)?;
-                Ok(Index::At(at))
+                let element = self.known_index(field, *x, index.span)?;
+                Ok(Index::At(element))
             }
             (None, Type::Number | Type::Any | Type::Element | Type::Never) => {
                 self.check_range(field, &ir)?;
@@ -228,12 +228,12 @@ impl<'a> Binder<'a> {
             );
         }
         // Whole numbers beyond the range of usize become usize::MAX, which is always out of range.
-        let at = x as usize;
-        if field.len().is_some_and(|n| at >= n) {
+        let element = x as usize;
+        if field.len().is_some_and(|n| element >= n) {
             let report = out_of_range(field, &text, span, self.host_terms());
             return self.refuse(report);
         }
-        Ok(at)
+        Ok(element)
     }
 
     pub(super) fn not_indexable(&self, entity: &Entity, object: &Expr, index: &Expr, span: Span) -> Finding {
@@ -347,7 +347,7 @@ impl<'a> Binder<'a> {
             );
         };
         match self.object_name(id, arg)? {
-            ObjectChoice::Known(object) => Ok(Entity::Object(object)),
+            ObjectChoice::Constant(object) => Ok(Entity::Object(object)),
             ObjectChoice::Computed(name) => Ok(Entity::Picked(id, name)),
         }
     }
@@ -392,7 +392,7 @@ impl<'a> Binder<'a> {
         if let Some(object) = self.schema.lookup(id, name) {
             let title = self.schema.describe(object);
             self.explain(arg.span, || Help { title, lines: Vec::new() });
-            return Ok(ObjectChoice::Known(object));
+            return Ok(ObjectChoice::Constant(object));
         }
         let report =
             Finding::error(rules::UNKNOWN_OBJECT, arg.span, format!("there is no {noun} named \"{name}\""));
@@ -411,7 +411,7 @@ impl<'a> Binder<'a> {
 
 /// The object to which a name refers.
 pub(super) enum ObjectChoice {
-    Known(ObjectId),
+    Constant(ObjectId),
     /// Known only at run time.
     Computed(Ir),
 }

@@ -145,7 +145,7 @@ impl<'a> Binder<'a> {
             },
             ExprKind::Index { object, index, optional: false } => match self.entity(object) {
                 Ok(Entity::Globals) => match self.global_name(index)? {
-                    GlobalName::Known(name) => self.global_place(&name, target.span),
+                    GlobalName::Constant(name) => self.global_place(&name, target.span),
                     GlobalName::Computed(name) => Ok(AssignmentTarget::GlobalNamed(name)),
                 },
                 Ok(Entity::Field(field)) => {
@@ -308,7 +308,7 @@ impl<'a> Binder<'a> {
 
     /// Records for the lints that a number is expected here.
     fn record_stored_expectation(&mut self, place: &AssignmentTarget, op: Option<BinaryOp>, value: &Ir) {
-        let at = match (place, op) {
+        let element = match (place, op) {
             (AssignmentTarget::Element(view, Index::At(i)), None) => {
                 Some((view.field, view.first as usize + i))
             }
@@ -316,7 +316,7 @@ impl<'a> Binder<'a> {
             (_, Some(op)) if op != BinaryOp::Add => None,
             _ => return,
         };
-        self.record_expectation(value, value.span, Expectation::Element(at));
+        self.record_expectation(value, value.span, Expectation::Element(element));
     }
 }
 

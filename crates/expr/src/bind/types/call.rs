@@ -59,7 +59,7 @@ impl<'a> Binder<'a> {
                     )
                 }
             },
-            Entity::Closure(at) => self.call_known(at, args, span).map(Entity::Value),
+            Entity::Closure(index) => self.call_known(index, args, span).map(Entity::Value),
             Entity::Value(ir) if matches!(ir.ty, Type::Function | Type::Any | Type::Never) => {
                 let callee = if optional { self.present(ir) } else { ir };
                 let items = self.items(args)?;
@@ -373,7 +373,7 @@ impl<'a> Binder<'a> {
     /// Binds the name of an object of a collection as its id.
     fn name_argument(&mut self, collection: CollectionId, arg: &'a Expr) -> Attempt<Ir> {
         match self.object_name(collection, arg)? {
-            ObjectChoice::Known(object) => Ok(Ir::number(f64::from(object.0), arg.span)),
+            ObjectChoice::Constant(object) => Ok(Ir::number(f64::from(object.0), arg.span)),
             // The name is known only at run time: a table with the ids of all objects of the collection.
             ObjectChoice::Computed(name) => {
                 let noun = self.schema.noun(collection).to_owned();

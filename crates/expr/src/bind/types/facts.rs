@@ -9,7 +9,7 @@ use crate::types::Type;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct FactKey {
     pub(super) site: usize,
-    pub(super) at: usize,
+    pub(super) offset: usize,
     pub(super) what: FactKind,
 }
 

@@ -32,23 +32,23 @@ impl<'a> Binder<'a> {
     }
 
     /// Binds the function for a call with these argument types, and returns its unit.
-    fn unit_of(&mut self, at: usize, types: &[Type]) -> Attempt<UnitId> {
-        let Some(called) = self.functions.get(at).cloned() else { return Err(Reported) };
+    fn unit_of(&mut self, index: usize, types: &[Type]) -> Attempt<UnitId> {
+        let Some(called) = self.functions.get(index).cloned() else { return Err(Reported) };
         let site = std::mem::replace(&mut self.site, called.site);
         for (i, param) in called.function.params.iter().enumerate() {
             let key = self.param_key(param);
             self.facts.join(key);
             self.facts.widen(key, types.get(i).copied().unwrap_or(Type::Undefined));
         }
-        let unit = called.unit.unwrap_or_else(|| self.bind_function(at, &called));
+        let unit = called.unit.unwrap_or_else(|| self.bind_function(index, &called));
         self.site = site;
         Ok(unit)
     }
 
-    fn bind_function(&mut self, at: usize, called: &KnownFunction<'a>) -> UnitId {
+    fn bind_function(&mut self, index: usize, called: &KnownFunction<'a>) -> UnitId {
         let unit = self.tree.units.len() as UnitId;
         self.tree.units.push(IrFunction::default());
-        if let Some(called) = self.functions.get_mut(at) {
+        if let Some(called) = self.functions.get_mut(index) {
             called.unit = Some(unit);
         }
         self.facts.join(called.key);
@@ -152,26 +152,26 @@ impl<'a> Binder<'a> {
     }
 
     /// Binds a function that nothing has called yet, with parameters of type any.
-    pub(super) fn bind_with_anything(&mut self, at: usize) {
-        let n = self.functions.get(at).map_or(0, |k| k.function.params.len());
-        let _ = self.unit_of(at, &vec![Type::Any; n]);
+    pub(super) fn bind_with_anything(&mut self, index: usize) {
+        let n = self.functions.get(index).map_or(0, |k| k.function.params.len());
+        let _ = self.unit_of(index, &vec![Type::Any; n]);
     }
 
     /// Binds a function as a value: it may be called from anywhere, with any arguments.
-    pub(super) fn closure_value(&mut self, at: usize, span: Span) -> Attempt<Ir> {
-        let n = self.functions.get(at).map_or(0, |k| k.function.params.len());
-        let unit = self.unit_of(at, &vec![Type::Any; n])?;
-        self.capture_for(at);
+    pub(super) fn closure_value(&mut self, index: usize, span: Span) -> Attempt<Ir> {
+        let n = self.functions.get(index).map_or(0, |k| k.function.params.len());
+        let unit = self.unit_of(index, &vec![Type::Any; n])?;
+        self.capture_for(index);
         Ok(Ir::new(IrKind::Closure(unit), Type::Function, span))
     }
 
     /// Records the variables that a called function captures: its caller must pass them.
-    fn capture_for(&mut self, at: usize) {
-        let Some(called) = self.functions.get(at) else { return };
-        let (FactKey { site, at, .. }, names) =
+    fn capture_for(&mut self, index: usize) {
+        let Some(called) = self.functions.get(index) else { return };
+        let (FactKey { site, offset, .. }, names) =
             (called.key, called.site.map_or(self.names, |site| site.names));
-        for byte in names.captured(at) {
-            let found = self.variables.get(&FactKey { site, at: byte, what: FactKind::Name }).cloned();
+        for byte in names.captured(offset) {
+            let found = self.variables.get(&FactKey { site, offset: byte, what: FactKind::Name }).cloned();
             if let Some(found) = found.filter(|v| !matches!(v.meaning, VariableMeaning::Alias(_))) {
                 self.capture(&found);
             }
@@ -179,16 +179,16 @@ impl<'a> Binder<'a> {
     }
 
     /// Binds a call of a function that is known by its index.
-    pub(super) fn call_known(&mut self, at: usize, args: &'a [Expr], span: Span) -> Attempt<Ir> {
+    pub(super) fn call_known(&mut self, index: usize, args: &'a [Expr], span: Span) -> Attempt<Ir> {
         if args.iter().any(|a| matches!(a.kind, ExprKind::Spread(_))) {
-            let callee = self.closure_value(at, span)?;
+            let callee = self.closure_value(index, span)?;
             let items = self.items(args)?;
             return Ok(self.call_value(callee, items, span));
         }
-        let expected = self.functions.get(at).map_or(0, |k| k.function.params.len());
+        let expected = self.functions.get(index).map_or(0, |k| k.function.params.len());
         let needed = self
             .functions
-            .get(at)
+            .get(index)
             .map_or(0, |k| k.function.params.iter().rposition(|p| p.default.is_none()).map_or(0, |i| i + 1));
         let mut values = Vec::new();
         let mut extra = Vec::new();
@@ -221,9 +221,9 @@ impl<'a> Binder<'a> {
             return Err(Reported);
         }
         let types: Vec<Type> = values.iter().map(|v| v.ty).collect();
-        let unit = self.unit_of(at, &types)?;
-        self.capture_for(at);
-        let Some(key) = self.functions.get(at).map(|k| k.key) else { return Err(Reported) };
+        let unit = self.unit_of(index, &types)?;
+        self.capture_for(index);
+        let Some(key) = self.functions.get(index).map(|k| k.key) else { return Err(Reported) };
         let call = Ir::new(IrKind::Invoke(unit, values), self.facts.ty(key), span);
         if extra.is_empty() {
             return Ok(call);

@@ -116,8 +116,8 @@ impl<'a> Binder<'a> {
     /// The example of a method, from its name on: `.map(x => 2 * x)`.
     fn call_of(&self, row: &Native) -> String {
         let (example, _) = row.example("");
-        let at = example.find(row.name).unwrap_or(0);
-        let from = example.split_at(at).1;
+        let start = example.find(row.name).unwrap_or(0);
+        let from = example.split_at(start).1;
         if row.on == ReceiverKind::Nothing { from.to_owned() } else { format!(".{from}") }
     }
 

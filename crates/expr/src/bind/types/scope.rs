@@ -12,8 +12,8 @@ use labspec_finding::{Finding, Span};
 
 impl<'a> Binder<'a> {
     /// The key of a declaration at a byte.
-    pub(super) fn key(&self, at: usize, what: FactKind) -> FactKey {
-        FactKey { site: self.site.map_or(0, |site| site.id), at, what }
+    pub(super) fn key(&self, offset: usize, what: FactKind) -> FactKey {
+        FactKey { site: self.site.map_or(0, |site| site.id), offset, what }
     }
 
     /// The key of a variable.
@@ -23,7 +23,7 @@ impl<'a> Binder<'a> {
 
     /// The result of the first pass for a declaration.
     pub(super) fn declaration(&self, key: FactKey) -> Option<&'a Declaration> {
-        self.site.map_or(self.names, |site| site.names).declared(key.at)
+        self.site.map_or(self.names, |site| site.names).declared(key.offset)
     }
 
     /// The number of assignments to a variable after its declaration.

@@ -56,7 +56,7 @@ fn types_join_in_a_lattice_of_four_levels() {
             }
         }
     }
-    let key = FactKey { site: 0, at: 0, what: FactKind::Name };
+    let key = FactKey { site: 0, offset: 0, what: FactKind::Name };
     let mut facts = TypeFacts::default();
     for ty in TYPES {
         facts.widen(key, ty);

@@ -71,9 +71,9 @@ impl TypedText {
 
     /// The properties of the expression with a span.
     pub(in crate::bind) fn shape(&self, span: Span) -> Option<&ExpressionShape> {
-        let behind = self.shapes.partition_point(|(at, _)| *at <= span);
-        let (at, shape) = self.shapes.get(behind.checked_sub(1)?)?;
-        (*at == span).then_some(shape)
+        let behind = self.shapes.partition_point(|(other, _)| *other <= span);
+        let (other, shape) = self.shapes.get(behind.checked_sub(1)?)?;
+        (*other == span).then_some(shape)
     }
 
     /// Whether the statement with a span has no effect.

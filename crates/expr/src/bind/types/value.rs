@@ -33,7 +33,7 @@ impl<'a> Binder<'a> {
                 return Ok(ir);
             }
             Entity::Field(field) => return Ok(self.field_value(&field, span)),
-            Entity::Closure(at) => return self.closure_value(at, span),
+            Entity::Closure(function) => return self.closure_value(function, span),
             other => self.not_a_value(&other, span),
         };
         self.refuse(report)

@@ -9,16 +9,16 @@ use labspec_core::{Model, biastype, gaintype};
 type BeforeAndAfter<'m> = (&'m [f64], &'m [f64]);
 
 /// An element before and after a program.
-fn at((before, after): BeforeAndAfter<'_>, i: usize) -> Option<(f64, f64)> {
+fn element_of((before, after): BeforeAndAfter<'_>, i: usize) -> Option<(f64, f64)> {
     Some((*before.get(i)?, *after.get(i)?))
 }
 
 fn same(both: BeforeAndAfter<'_>, i: usize) -> bool {
-    at(both, i).is_some_and(|(a, b)| a.to_bits() == b.to_bits())
+    element_of(both, i).is_some_and(|(a, b)| a.to_bits() == b.to_bits())
 }
 
 fn factor(both: BeforeAndAfter<'_>, i: usize) -> Option<f64> {
-    let (a, b) = at(both, i)?;
+    let (a, b) = element_of(both, i)?;
     (a > 0.0 && b > 0.0 && b.is_finite()).then_some(b / a)
 }
 
@@ -141,7 +141,7 @@ pub(super) fn centre_of_place(before: &Model, current: &Model) -> Changes {
     for g in changed(before, current, |m| &m.geom_pos) {
         let Some(body) = shape::body_of_geom_mass(before, g) else { continue };
         for axis in 0..3 {
-            let Some((a, b)) = at(place, 3 * g + axis).filter(|(a, b)| a != b) else { continue };
+            let Some((a, b)) = element_of(place, 3 * g + axis).filter(|(a, b)| a != b) else { continue };
             if same(centre, 3 * body + axis) {
                 changes.push((3 * body + axis, PartnerChange::Plus(b - a)));
             }

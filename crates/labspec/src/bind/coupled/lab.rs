@@ -55,8 +55,8 @@ pub(crate) fn intentionally_separate(programs: &Programs, bound: &Bound, pairs: 
         let partners: Vec<_> =
             written_elements(bound, pair.parameter).into_iter().flatten().flat_map(pair.partners).collect();
         let has = |other: &&Bound| {
-            let theirs = written_elements(other, pair.partner).unwrap_or_default();
-            !writes_field(&other.program, pair.parameter) && partners.iter().any(|i| theirs.contains(i))
+            let coupled = written_elements(other, pair.partner).unwrap_or_default();
+            !writes_field(&other.program, pair.parameter) && partners.iter().any(|i| coupled.contains(i))
         };
         others.iter().any(has)
     };

@@ -342,9 +342,10 @@ fn corrected<'a>(labs: &[PreparedLab<'a>], coupled: &Coupled) -> Vec<PreparedLab
 
 /// The pairs whose rule the author has suppressed at this place.
 fn suppressed_pairs(lesson: &Lesson, text: &Text, pairs: PairSet) -> PairSet {
-    let at = text.span().start;
+    let start = text.span().start;
     let allowances = lesson.allowances();
-    let here = allowances.iter().filter(|a| !a.why.is_empty() && a.over.start <= at && at <= a.over.end);
+    let here =
+        allowances.iter().filter(|a| !a.why.is_empty() && a.over.start <= start && start <= a.over.end);
     let codes: Vec<&str> = here.flat_map(|a| &a.codes).map(|(code, _)| code.as_str()).collect();
     pairs.pairs().filter(|(_, pair)| codes.contains(&pair.rule.code)).map(|(one, _)| one).collect()
 }
@@ -416,9 +417,9 @@ mod tests {
     #[test]
     fn a_run_without_uncoupled_changes_equals_the_corrected_one() {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-        let ours = (root.join("specs/lessons"), root.join("specs/models"));
+        let specs = (root.join("specs/lessons"), root.join("specs/models"));
         let corpus = root.join("../shared/corpus");
-        let folders = [ours, (corpus.join("labs"), corpus.join("models"))];
+        let folders = [specs, (corpus.join("labs"), corpus.join("models"))];
         let (mut clean, mut left) = (0, 0);
         for (folder, models) in folders {
             if folder.starts_with(&corpus) && !corpus.is_dir() {

@@ -93,15 +93,15 @@ impl<'a> SetConstBench<'a> {
     pub(super) fn trials(&self, s: &SuspectProgram<'_>, steps: usize) -> Vec<BenchTrial> {
         let mut all = vec![BenchTrial { moves: Vec::new(), description: "as it stands".into() }];
         let half = steps / 2;
-        let mut add = |at: usize, index: usize, value: Option<Value>| {
+        let mut add = |first_step: usize, index: usize, value: Option<Value>| {
             let label = self.lab.controls.get(index).map_or("", |c| c.label.as_str());
-            let later = if at > 0 { " in mid-run" } else { "" };
+            let later = if first_step > 0 { " in mid-run" } else { "" };
             let description = match &value {
                 Some(value) => format!("with \"{label}\" at {value}{later}"),
                 None => format!("after \"{label}\" is pressed{later}"),
             };
             let what = value.map_or(Move::Press(index), |v| Move::Set(index, v));
-            all.push(BenchTrial { moves: vec![(at, what)], description });
+            all.push(BenchTrial { moves: vec![(first_step, what)], description });
         };
         match s.place {
             ProgramSite::Run(run) => return vec![self.run_of_question(run)],
@@ -172,10 +172,13 @@ impl<'a> SetConstBench<'a> {
         };
         let mut all = Vec::new();
         for (index, other) in self.lab.controls.iter().enumerate().filter(|(i, _)| *i != nominal) {
-            for (theirs, how) in moves(index, other) {
-                for (ours, description) in moves(nominal, control) {
+            for (other_move, how) in moves(index, other) {
+                for (nominal_move, description) in moves(nominal, control) {
                     let description = format!("{description} and {}", how.trim_start_matches("with "));
-                    all.push(BenchTrial { moves: vec![(0, theirs.clone()), (0, ours)], description });
+                    all.push(BenchTrial {
+                        moves: vec![(0, other_move.clone()), (0, nominal_move)],
+                        description,
+                    });
                 }
             }
         }
@@ -274,7 +277,7 @@ impl<'a> SetConstBench<'a> {
                 };
                 self.work_left = left;
             }
-            let due = trial.moves.iter().filter(|(at, _)| *at * finer == step).map(|(_, m)| m);
+            let due = trial.moves.iter().filter(|(at_step, _)| *at_step * finer == step).map(|(_, m)| m);
             let (set, press): (Vec<&Move>, Vec<&Move>) = due.partition(|m| sets(m));
             let moved = step == 0 || !set.is_empty() || !press.is_empty();
             set.into_iter().for_each(|m| act(session, m));

@@ -110,7 +110,7 @@ fn pairs(
     for (i, row) in old.rows.iter().enumerate() {
         let named = free.iter().position(|&j| run.rows.get(j).is_some_and(|(name, _)| *name == row.name));
         match named {
-            Some(at) => pairs.push((i, free.remove(at))),
+            Some(index) => pairs.push((i, free.remove(index))),
             None => lost.push(i),
         }
     }
@@ -122,8 +122,8 @@ fn pairs(
         };
         let name = named(&row.name);
         match free.iter().position(same).filter(|_| !moved) {
-            Some(at) => {
-                let new = run.rows.get(free.remove(at)).map_or("", |(name, _)| name);
+            Some(index) => {
+                let new = run.rows.get(free.remove(index)).map_or("", |(name, _)| name);
                 all.changes.push(format!("{name} is now called {}", named(new)));
             }
             None => all.changes.push(format!("{name} is no longer shown")),

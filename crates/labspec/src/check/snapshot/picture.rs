@@ -28,7 +28,7 @@ pub(super) fn picture(times: &[f64], stored: &[f64], current: &[f64]) -> Vec<Str
     let width = labels.iter().map(|(_, label)| label.len()).max().unwrap_or(0);
     let mut picture = Vec::new();
     for (i, line) in grid.iter().enumerate() {
-        let label = labels.iter().find(|(at, _)| *at == i).map_or("", |(_, label)| label);
+        let label = labels.iter().find(|(index, _)| *index == i).map_or("", |(_, label)| label);
         let line: String = line.iter().collect();
         picture.push(format!("{label:>width$} | {line}").trim_end().to_string());
     }

@@ -129,8 +129,8 @@ pub(super) fn play(
         ControlFlow::Continue(())
     });
     let column = |i: usize| {
-        let at = |k: usize| samples.get(k).and_then(|row| row.get(i)).cloned().unwrap_or(Cell::Nothing);
-        (0..looks.len()).map(at).collect::<Vec<Cell>>()
+        let cell_at = |k: usize| samples.get(k).and_then(|row| row.get(i)).cloned().unwrap_or(Cell::Nothing);
+        (0..looks.len()).map(cell_at).collect::<Vec<Cell>>()
     };
     let rows = programs.probes.iter().enumerate().map(|(i, p)| (p.name.clone(), column(i + 1))).collect();
     let times = looks.iter().map(|&step| step as f64 * timestep).collect();

@@ -19,8 +19,8 @@ pub(super) struct LessonContext<'a> {
 }
 
 impl<'a> LessonContext<'a> {
-    pub(super) fn line(&self, at: usize) -> usize {
-        self.lesson.file.position(at).line
+    pub(super) fn line(&self, offset: usize) -> usize {
+        self.lesson.file.position(offset).line
     }
 
     /// The runs of a claim, with the settings of each at its start.

@@ -80,7 +80,7 @@ fn quotes(claim: &Claim, context: &LessonContext<'_>) -> String {
         let (state, word) =
             context.state(Subject::Quote, &q.span, &q.text).unwrap_or((state_of_quote, q.verdict()));
         let mut lines: Vec<usize> =
-            context.rendered.places(&q.text).iter().map(|at| context.line(at.start)).collect();
+            context.rendered.places(&q.text).iter().map(|span| context.line(span.start)).collect();
         // A cell of a table is listed at the line of its claim.
         lines.extend(lines.is_empty().then(|| context.line(q.span.start)));
         lines.dedup();

@@ -94,26 +94,26 @@ fn text(text: &str) -> String {
 /// The first formula of a text: the text before it, the formula, the text after it.
 fn formula(text: &str) -> Option<(&str, &str, &str)> {
     let mut from = 0;
-    while let Some(at) = text.get(from..)?.find(['$', '\\']).map(|i| from + i) {
-        let rest = text.get(at..)?;
+    while let Some(start) = text.get(from..)?.find(['$', '\\']).map(|i| from + i) {
+        let rest = text.get(start..)?;
         let marks = [("$$", "$$"), ("\\(", "\\)"), ("\\[", "\\]"), ("$", "$")];
         let found = marks.into_iter().find(|(open, _)| rest.starts_with(open)).and_then(|(open, close)| {
             let (inside, after) = split(rest.get(open.len()..)?, close)?;
-            Some((text.get(..at)?, inside, after))
+            Some((text.get(..start)?, inside, after))
         });
         if found.is_some() {
             return found;
         }
         // `\$` is a dollar sign.
-        from = at + if rest.starts_with("\\$") { 2 } else { 1 };
+        from = start + if rest.starts_with("\\$") { 2 } else { 1 };
     }
     None
 }
 
 /// Splits a text at the end of a formula. Prices are not formulas: `$5 and $6`.
 fn split<'t>(text: &'t str, close: &str) -> Option<(&'t str, &'t str)> {
-    let ends = |at: &usize| !text.get(..*at).is_some_and(|inside| inside.ends_with('\\'));
-    let end = text.match_indices(close).map(|(at, _)| at).find(ends)?;
+    let ends = |offset: &usize| !text.get(..*offset).is_some_and(|inside| inside.ends_with('\\'));
+    let end = text.match_indices(close).map(|(offset, _)| offset).find(ends)?;
     let (inside, after) = (text.get(..end)?, text.get(end + close.len()..)?);
     let price = close == "$"
         && (inside.starts_with(' ')

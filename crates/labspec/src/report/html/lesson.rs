@@ -145,9 +145,9 @@ pub(super) fn found(findings: &[&Finding], sources: &[&SourceFile], names: &Name
     let mut out = String::from("<h3>Findings</h3>\n<ul class=\"findings\">\n");
     for f in findings {
         let file = sources.iter().find(|s| s.path() == &f.path);
-        let at = f.position.or_else(|| file.map(|file| file.position(f.span.start)));
-        let place = at.map_or(String::new(), |at| {
-            format!(" <span class=\"soft\">line {}, column {}</span>", at.line, at.column)
+        let position = f.position.or_else(|| file.map(|file| file.position(f.span.start)));
+        let place = position.map_or(String::new(), |position| {
+            format!(" <span class=\"soft\">line {}, column {}</span>", position.line, position.column)
         });
         let _ = write!(
             out,

@@ -31,10 +31,10 @@ pub(super) fn done(run: Option<&Run>, name: &str) -> String {
         "" => "no controller".to_string(),
         statements => format!("controller {}", code(statements)),
     }));
-    let at = |(label, t): &(crate::source::Text, crate::json::Number)| {
+    let press_at = |(label, t): &(crate::source::Text, crate::json::Number)| {
         format!("{} pressed at {} s", text(label.as_str()), plain(&significant(t.value)))
     };
-    all.extend(run.press.iter().map(at));
+    all.extend(run.press.iter().map(press_at));
     if all.is_empty() {
         all.push("as the lab stands".into());
     }

@@ -28,7 +28,7 @@ pub(super) fn code(text: &str) -> String {
 
 /// The part of a text that is displayed.
 pub(super) fn cut(text: &str) -> &str {
-    let end = text.char_indices().nth(MAX_TEXT).map_or(text.len(), |(at, _)| at);
+    let end = text.char_indices().nth(MAX_TEXT).map_or(text.len(), |(offset, _)| offset);
     text.get(..end).unwrap_or("")
 }
 
@@ -69,7 +69,7 @@ pub(super) struct Names {
 impl Names {
     /// The names of these files.
     pub(super) fn shorten_paths<'p>(mut paths: impl Iterator<Item = &'p str>) -> Names {
-        let folder_of = |path: &str| path.rfind(['/', '\\']).map_or(0, |at| at + 1);
+        let folder_of = |path: &str| path.rfind(['/', '\\']).map_or(0, |separator| separator + 1);
         let Some(first) = paths.next() else { return Names { folder: String::new() } };
         let mut folder = first.get(..folder_of(first)).unwrap_or("");
         for path in paths {

@@ -10,7 +10,7 @@ fn mark(state: State) -> (&'static str, &'static str) {
         State::True(_) => ("good", "✓"),
         State::False => ("bad", "✗"),
         State::Unchecked => ("open", "?"),
-        State::Known => ("open", "≈"),
+        State::Baselined => ("open", "≈"),
         State::Skipped => ("none", "–"),
         State::NotClaimed => ("none", "○"),
     }

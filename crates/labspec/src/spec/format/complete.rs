@@ -106,20 +106,20 @@ fn holder(whole: Option<&'static Object>, found: &JsonScan, index: usize) -> Hol
     while let Some((parent, _)) = ancestors.last().and_then(|&i| found.scopes.get(i)?.parent.as_ref()) {
         ancestors.push(*parent);
     }
-    let mut at = Holder::Unknown;
+    let mut holder = Holder::Unknown;
     for (depth, scope) in ancestors.iter().rev().filter_map(|&i| found.scopes.get(i)).enumerate() {
-        let outer_list = depth == 1 && matches!(at, Holder::Unknown);
-        at = match &scope.parent {
+        let outer_list = depth == 1 && matches!(holder, Holder::Unknown);
+        holder = match &scope.parent {
             None if scope.list => Holder::Unknown,
             None => whole.map_or_else(|| root(scope), |object| Holder::Keys(allowed(&[object], scope))),
             Some((_, ScanStep::Item(_))) if outer_list && !scope.list => root(scope),
-            Some((_, step)) => match inside(&at, step) {
+            Some((_, step)) => match inside(&holder, step) {
                 Some(ty) => of_type(ty, scope),
                 None => Holder::Unknown,
             },
         };
     }
-    at
+    holder
 }
 
 /// The root object of a text: a quiz or a lab, or either of them if its keys do not decide.
@@ -172,9 +172,10 @@ fn meant(family: &'static Family, scope: &JsonScope) -> Vec<&'static Object> {
         return vec![object];
     }
     let family_keys = family.keys();
-    let ours = |name: &str| family_keys.iter().any(|k| k.name == name);
-    let fits =
-        |object: &&Object| scope.keys.iter().all(|(name, _)| !ours(name) || object.key(name).is_some());
+    let is_of_family = |name: &str| family_keys.iter().any(|k| k.name == name);
+    let fits = |object: &&Object| {
+        scope.keys.iter().all(|(name, _)| !is_of_family(name) || object.key(name).is_some())
+    };
     let some: Vec<&'static Object> = family.objects.iter().copied().filter(fits).collect();
     if some.is_empty() { family.objects.to_vec() } else { some }
 }

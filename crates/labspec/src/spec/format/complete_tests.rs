@@ -11,7 +11,7 @@ use std::ops::Range;
 const NONE: fn(RequestedNames<'_>) -> Vec<String> = |_| Vec::new();
 
 /// The completions at the marker `¦`, which is removed from the text.
-fn at(marked: &str) -> Vec<&'static str> {
+fn words_at(marked: &str) -> Vec<&'static str> {
     let word = |text: Cow<'static, str>| match text {
         Cow::Borrowed(word) => word,
         Cow::Owned(name) => panic!("{name}: no models are known"),
@@ -38,49 +38,52 @@ fn names(object: &Object, but: &[&str]) -> Vec<&'static str> {
 
 #[test]
 fn behind_a_brace_or_a_comma_stand_the_keys_that_are_not_there_yet() {
-    assert_eq!(at(r#"{"model": "fall", ¦}"#), names(&LAB, &["model", "xml"]));
-    assert_eq!(at(r#"{¦ "model": "fall", "camera": {}}"#), names(&LAB, &["model", "xml", "camera"]));
-    assert_eq!(at(r#"{"model": "fall", "camera": {¦"#), names(&CAMERA, &[]));
-    assert_eq!(at(r#"{"model": "fall", "plots": [{"traces": [{¦}]}]}"#), names(&TRACE, &[]));
-    assert_eq!(at(r#"{"plots": [{"traces": [], "refLines": [{"y": 1, ¦"#), ["label"]);
-    assert_eq!(at(r#"{"verify": {"runs": {"a": {"until": 1, ¦}}}}"#), names(&RUN, &["until", "steps"]));
-    assert_eq!(at(r#"{"verify": {"exact": {"z": {¦}}}}"#), ["is", "tol"]);
-    assert_eq!(at(r#"{"verify": {"lab": {¦}}}"#), names(&LAB, &[]));
-    assert_eq!(at(r#"{"id": "a", ¦}"#), ["title", "questions", "lint"]);
-    assert_eq!(at(r#"[{"model": "fall"}, {"id": "a", ¦"#), ["title", "questions", "lint"]);
+    assert_eq!(words_at(r#"{"model": "fall", ¦}"#), names(&LAB, &["model", "xml"]));
+    assert_eq!(words_at(r#"{¦ "model": "fall", "camera": {}}"#), names(&LAB, &["model", "xml", "camera"]));
+    assert_eq!(words_at(r#"{"model": "fall", "camera": {¦"#), names(&CAMERA, &[]));
+    assert_eq!(words_at(r#"{"model": "fall", "plots": [{"traces": [{¦}]}]}"#), names(&TRACE, &[]));
+    assert_eq!(words_at(r#"{"plots": [{"traces": [], "refLines": [{"y": 1, ¦"#), ["label"]);
+    assert_eq!(words_at(r#"{"verify": {"runs": {"a": {"until": 1, ¦}}}}"#), names(&RUN, &["until", "steps"]));
+    assert_eq!(words_at(r#"{"verify": {"exact": {"z": {¦}}}}"#), ["is", "tol"]);
+    assert_eq!(words_at(r#"{"verify": {"lab": {¦}}}"#), names(&LAB, &[]));
+    assert_eq!(words_at(r#"{"id": "a", ¦}"#), ["title", "questions", "lint"]);
+    assert_eq!(words_at(r#"[{"model": "fall"}, {"id": "a", ¦"#), ["title", "questions", "lint"]);
     assert_eq!(
-        at(r#"{"id": "a", "questions": [{"kind": "predict", "sim": {"xml": "", ¦"#),
+        words_at(r#"{"id": "a", "questions": [{"kind": "predict", "sim": {"xml": "", ¦"#),
         names(&LAB, &["model", "xml"])
     );
     // The kind of the root object is not known yet.
-    let both = at("{¦");
+    let both = words_at("{¦");
     assert!(both.starts_with(&names(&LAB, &[])) && both.ends_with(&["id", "questions"]));
 }
 
 #[test]
 fn the_word_of_a_family_tells_the_keys_and_so_do_the_keys() {
-    assert_eq!(at(r#"{"controls": [{"type": "button", ¦}]}"#), ["label", "run"]);
-    assert_eq!(at(r#"{"controls": [{¦ "label": "a", "type": "button"}]}"#), ["run"]);
-    let keys = at(r#"{"controls": [{"label": "a", "min": 0, ¦}]}"#);
+    assert_eq!(words_at(r#"{"controls": [{"type": "button", ¦}]}"#), ["label", "run"]);
+    assert_eq!(words_at(r#"{"controls": [{¦ "label": "a", "type": "button"}]}"#), ["run"]);
+    let keys = words_at(r#"{"controls": [{"label": "a", "min": 0, ¦}]}"#);
     assert_eq!(keys, names(&SLIDER, &["label", "min"]));
-    let keys = at(r#"{"controls": [{"label": "a", ¦}]}"#);
+    let keys = words_at(r#"{"controls": [{"label": "a", ¦}]}"#);
     assert!(keys.contains(&"run") && keys.contains(&"options") && keys.contains(&"min"));
     // `apply` has no effect if `set` is present.
-    assert!(!at(r#"{"controls": [{"type": "slider", "set": "x", ¦}]}"#).contains(&"apply"));
-    assert_eq!(at(r#"{"questions": [{"kind": "numeric", "q": "?", ¦}]}"#), names(&NUMERIC, &["kind", "q"]));
-    assert!(!at(r#"{"questions": [{"tol": 1, ¦}]}"#).contains(&"options"));
+    assert!(!words_at(r#"{"controls": [{"type": "slider", "set": "x", ¦}]}"#).contains(&"apply"));
+    assert_eq!(
+        words_at(r#"{"questions": [{"kind": "numeric", "q": "?", ¦}]}"#),
+        names(&NUMERIC, &["kind", "q"])
+    );
+    assert!(!words_at(r#"{"questions": [{"tol": 1, ¦}]}"#).contains(&"options"));
 }
 
 #[test]
 fn what_is_written_chooses() {
-    assert_eq!(at(r#"{"model": "fall", "con¦"#), ["controller", "controls"]);
-    assert_eq!(at(r#"{"model": "fall", "con¦": []}"#), ["controller", "controls"]);
-    assert_eq!(at(r#"{"model": "fall", con¦ }"#), ["controller", "controls"]);
-    assert_eq!(at("{\"model\": \"fall\", \"con¦\n \"controls\": []}"), ["controller"]);
-    assert_eq!(at(r#"{"model": "fall", "con¦, "controls": [{"label": "a"}]}"#), ["controller"]);
-    assert_eq!(at(r#"{"model": "fall", "¦"}"#), names(&LAB, &["model", "xml"]));
+    assert_eq!(words_at(r#"{"model": "fall", "con¦"#), ["controller", "controls"]);
+    assert_eq!(words_at(r#"{"model": "fall", "con¦": []}"#), ["controller", "controls"]);
+    assert_eq!(words_at(r#"{"model": "fall", con¦ }"#), ["controller", "controls"]);
+    assert_eq!(words_at("{\"model\": \"fall\", \"con¦\n \"controls\": []}"), ["controller"]);
+    assert_eq!(words_at(r#"{"model": "fall", "con¦, "controls": [{"label": "a"}]}"#), ["controller"]);
+    assert_eq!(words_at(r#"{"model": "fall", "¦"}"#), names(&LAB, &["model", "xml"]));
     // No key starts with this text, so all keys are offered.
-    assert_eq!(at(r#"{"model": "fall", "zzz¦"}"#), names(&LAB, &["model", "xml"]));
+    assert_eq!(words_at(r#"{"model": "fall", "zzz¦"}"#), names(&LAB, &["model", "xml"]));
     assert_eq!(
         apply_completion(r#"{"model": "fall", "con¦"}"#, "controls"),
         r#"{"model": "fall", "controls": }"#
@@ -91,18 +94,18 @@ fn what_is_written_chooses() {
 
 #[test]
 fn a_value_takes_its_words() {
-    assert_eq!(at(r#"{"controls": [{"type": "¦"}]}"#), ["slider", "select", "button"]);
-    assert_eq!(at(r#"{"controls": [{"type": ¦}]}"#), ["slider", "select", "button"]);
-    assert_eq!(at(r#"{"controls": [{"type": "s¦, "label": "a"}]}"#), ["slider", "select"]);
-    assert_eq!(at("{\"controls\": [{\"type\": \"b¦}]}"), ["button"]);
-    assert_eq!(at(r#"{"questions": [{"kind": "¦mcq", "q": "?"}]}"#).len(), 8);
-    assert_eq!(at(r#"{"id": "a", "questions": [{"kind": "n¦"}]}"#), ["numeric"]);
-    assert_eq!(at(r#"{"expect": ¦, "model": "a"}"#), ["breaks", "may break"]);
-    assert_eq!(at(r#"{"model": "a", "dock": ¦}"#), ["true", "false"]);
-    assert_eq!(at(r#"{"model": "a", "dock": t¦}"#), ["true"]);
-    assert_eq!(at(r#"{"model": "a", "toggles": ["com", "¦", "sites"]}"#).len(), OVERLAYS.len() - 2);
-    assert_eq!(at(r#"{"model": "a", "overlays": {"com": true, "s¦"}}"#), ["sites", "shadows"]);
-    assert_eq!(at(r#"{"model": "a", "overlays": {"com": ¦}}"#), ["true", "false"]);
+    assert_eq!(words_at(r#"{"controls": [{"type": "¦"}]}"#), ["slider", "select", "button"]);
+    assert_eq!(words_at(r#"{"controls": [{"type": ¦}]}"#), ["slider", "select", "button"]);
+    assert_eq!(words_at(r#"{"controls": [{"type": "s¦, "label": "a"}]}"#), ["slider", "select"]);
+    assert_eq!(words_at("{\"controls\": [{\"type\": \"b¦}]}"), ["button"]);
+    assert_eq!(words_at(r#"{"questions": [{"kind": "¦mcq", "q": "?"}]}"#).len(), 8);
+    assert_eq!(words_at(r#"{"id": "a", "questions": [{"kind": "n¦"}]}"#), ["numeric"]);
+    assert_eq!(words_at(r#"{"expect": ¦, "model": "a"}"#), ["breaks", "may break"]);
+    assert_eq!(words_at(r#"{"model": "a", "dock": ¦}"#), ["true", "false"]);
+    assert_eq!(words_at(r#"{"model": "a", "dock": t¦}"#), ["true"]);
+    assert_eq!(words_at(r#"{"model": "a", "toggles": ["com", "¦", "sites"]}"#).len(), OVERLAYS.len() - 2);
+    assert_eq!(words_at(r#"{"model": "a", "overlays": {"com": true, "s¦"}}"#), ["sites", "shadows"]);
+    assert_eq!(words_at(r#"{"model": "a", "overlays": {"com": ¦}}"#), ["true", "false"]);
     assert_eq!(
         apply_completion(r#"{"controls": [{"type": se¦}]}"#, "select"),
         r#"{"controls": [{"type": "select"}]}"#
@@ -119,8 +122,8 @@ fn names_come_from_the_models() {
         other => panic!("{other:?}"),
     };
     let offered = |marked: &str| {
-        let at = marked.find('¦').unwrap();
-        let all = completions(&marked.replace('¦', ""), at, &names);
+        let offset = marked.find('¦').unwrap();
+        let all = completions(&marked.replace('¦', ""), offset, &names);
         all.into_iter().map(|c| (c.text.into_owned(), c.insert)).collect::<Vec<_>>()
     };
     let texts = |marked: &str| offered(marked).into_iter().map(|(text, _)| text).collect::<Vec<_>>();
@@ -160,7 +163,7 @@ fn in_code_and_free_text_and_between_values_there_is_nothing() {
         "¦",
         "# A lesson¦",
     ] {
-        assert_eq!(at(marked), Vec::<&str>::new(), "{marked}");
+        assert_eq!(words_at(marked), Vec::<&str>::new(), "{marked}");
     }
 }
 
@@ -188,8 +191,8 @@ fn bodies() -> Vec<String> {
         include_str!("../../../../../specs/lessons/02-bounce-and-swing.md"),
     ] {
         let scan = markdown::scan(&SourceFile::new("a.md", text));
-        let ours = scan.blocks.into_iter().filter(|b| !matches!(b.kind, BlockKind::Code { .. }));
-        all.extend(ours.map(|b| b.body.value));
+        let blocks = scan.blocks.into_iter().filter(|b| !matches!(b.kind, BlockKind::Code { .. }));
+        all.extend(blocks.map(|b| b.body.value));
         all.push(text.into());
     }
     assert!(all.len() > 8);

@@ -27,7 +27,7 @@ pub fn completions_in(
         let Some(claim) = comment::claim_at(file.text(), &scan, offset) else { return Vec::new() };
         let inside = file.slice(claim.clone());
         let found = completions_of(Some(&VERIFY), inside, offset - claim.start, names).into_iter();
-        let place = |at: Range<usize>| claim.start + at.start..claim.start + at.end;
+        let place = |range: Range<usize>| claim.start + range.start..claim.start + range.end;
         return found.map(|c| Completion { replace: place(c.replace.clone()), ..c }).collect();
     };
     // The text of a block is that of the file, without the prefixes of its lines. The order of the bytes is the same, so a
@@ -58,9 +58,9 @@ mod tests {
 
     /// The completions at `|`, and the lesson after the first of them is applied.
     fn offered(lesson: &str) -> (Vec<String>, String) {
-        let at = lesson.find('|').unwrap();
+        let offset = lesson.find('|').unwrap();
         let mut text = lesson.replace('|', "");
-        let all = completions_in(&SourceFile::new("a.md", text.as_str()), at, &|_| Vec::new());
+        let all = completions_in(&SourceFile::new("a.md", text.as_str()), offset, &|_| Vec::new());
         if let Some(first) = all.first() {
             text.replace_range(first.replace.clone(), &first.insert);
         }
@@ -101,9 +101,9 @@ mod tests {
     fn no_offset_of_a_broken_lesson_is_a_panic() {
         let text = "> ```lab simlab\n> {“model”: \"ball\", 'é': [\n\n```quiz {\"q\n```lab simlab\n{\"a\": \"\\u00e9\"\n";
         let file = SourceFile::new("a.md", text);
-        for at in 0..=text.len() + 2 {
-            for c in completions_in(&file, at, &|_| vec!["é".into()]) {
-                assert!(text.get(c.replace.clone()).is_some(), "{at}: {:?}", c.replace);
+        for offset in 0..=text.len() + 2 {
+            for c in completions_in(&file, offset, &|_| vec!["é".into()]) {
+                assert!(text.get(c.replace.clone()).is_some(), "{offset}: {:?}", c.replace);
             }
         }
     }

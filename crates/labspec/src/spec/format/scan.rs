@@ -63,7 +63,7 @@ enum Next {
 struct Scanner<'a> {
     text: &'a str,
     offset: usize,
-    at: usize,
+    position: usize,
     open: Vec<usize>,
     next: Next,
     /// The key whose value is expected next.
@@ -78,7 +78,8 @@ pub(super) fn scan(text: &str, offset: usize) -> JsonScan {
     let (open, scan) = (Vec::new(), JsonScan::default());
     // The lines of malformed strings are examined more than once.
     let budget = 16 * text.len() + 1000;
-    let mut s = Scanner { text, offset, at: 0, open, next: Next::Value, key: String::new(), budget, scan };
+    let mut s =
+        Scanner { text, offset, position: 0, open, next: Next::Value, key: String::new(), budget, scan };
     while s.budget > 0 {
         s.gap();
         let Some(c) = s.rest().chars().next() else { break };
@@ -91,19 +92,19 @@ pub(super) fn scan(text: &str, offset: usize) -> JsonScan {
             }
             '}' | ']' => s.leave(c == ']'),
             ',' => {
-                s.at += 1;
+                s.position += 1;
                 s.key.clear();
                 s.next = if s.in_list() { Next::Value } else { Next::Key };
             }
             ':' => {
-                s.at += 1;
+                s.position += 1;
                 if s.next == Next::Colon {
                     s.next = Next::Value;
                 }
             }
             '"' => s.string(),
             c if is_word(c) => s.word(),
-            c => s.at += c.len_utf8(),
+            c => s.position += c.len_utf8(),
         }
     }
     s.scan
@@ -115,7 +116,7 @@ fn is_word(c: char) -> bool {
 
 impl<'a> Scanner<'a> {
     fn rest(&self) -> &'a str {
-        self.text.get(self.at..).unwrap_or("")
+        self.text.get(self.position..).unwrap_or("")
     }
 
     fn in_list(&self) -> bool {
@@ -128,9 +129,9 @@ impl<'a> Scanner<'a> {
 
     /// Skips white space, which can contain the offset.
     fn gap(&mut self) {
-        let start = self.at;
-        self.at += self.rest().len() - self.rest().trim_start().len();
-        if (start..=self.at).contains(&self.offset) {
+        let start = self.position;
+        self.position += self.rest().len() - self.rest().trim_start().len();
+        if (start..=self.position).contains(&self.offset) {
             self.mark(self.offset..self.offset);
         }
     }
@@ -160,12 +161,12 @@ impl<'a> Scanner<'a> {
         self.open.push(self.scan.scopes.len());
         self.scan.scopes.push(JsonScope { parent, list, ..JsonScope::default() });
         self.next = if list { Next::Value } else { Next::Key };
-        self.at += 1;
+        self.position += 1;
     }
 
     /// A closing bracket closes the innermost open bracket of its kind, and all brackets inside it.
     fn leave(&mut self, list: bool) {
-        self.at += 1;
+        self.position += 1;
         self.key.clear();
         let in_list = |&scope: &usize| self.scan.scopes.get(scope).is_some_and(|s| s.list == list);
         if let Some(i) = self.open.iter().rposition(in_list) {
@@ -191,7 +192,7 @@ impl<'a> Scanner<'a> {
     }
 
     fn string(&mut self) {
-        let (start, mut end) = (self.at, self.closed());
+        let (start, mut end) = (self.position, self.closed());
         let behind = |end: usize| self.text.get(end..).unwrap_or("").trim_start();
         let colon = behind(end).starts_with(':');
         if self.in_list() {
@@ -228,10 +229,10 @@ impl<'a> Scanner<'a> {
         for (i, c) in self.rest().char_indices().skip(1) {
             self.budget = self.budget.saturating_sub(1);
             match c {
-                '\n' | '\r' => return self.at + i,
+                '\n' | '\r' => return self.position + i,
                 _ if escaped => escaped = false,
                 '\\' => escaped = true,
-                '"' => return self.at + i + 1,
+                '"' => return self.position + i + 1,
                 _ => {}
             }
         }
@@ -241,7 +242,7 @@ impl<'a> Scanner<'a> {
     /// A number, `true`, or a word without quotes.
     fn word(&mut self) {
         let length = self.rest().find(|c| !is_word(c)).unwrap_or(self.rest().len());
-        let range = self.at..self.at + length;
+        let range = self.position..self.position + length;
         if self.next == Next::Comma {
             self.next = if self.in_list() { Next::Value } else { Next::Key };
         }
@@ -255,7 +256,7 @@ impl<'a> Scanner<'a> {
         if within {
             self.mark(range.clone());
         }
-        self.at = range.end;
+        self.position = range.end;
         if self.next == Next::Key && !self.in_list() {
             self.key.clone_from(&value);
             self.next = Next::Colon;

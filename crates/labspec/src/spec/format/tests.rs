@@ -151,12 +151,12 @@ fn every_key_says_what_it_means() {
     let package: Vec<u32> =
         env!("CARGO_PKG_VERSION").split('.').map(|part| part.parse().unwrap()).take(2).collect();
     for (object, key) in every_key() {
-        let at = format!("{}.{}", object.name, key.name);
-        assert!(key.doc.len() > 8 && !key.doc.ends_with('.'), "{at}");
+        let path = format!("{}.{}", object.name, key.name);
+        assert!(key.doc.len() > 8 && !key.doc.ends_with('.'), "{path}");
         let since: Vec<u32> = key.since.split('.').map(|part| part.parse().unwrap()).collect();
-        assert!(since.len() == 2 && since <= package, "{at}: since {}", key.since);
+        assert!(since.len() == 2 && since <= package, "{path}: since {}", key.since);
         if let Some(Value::Number(n)) = describe::default(key) {
-            assert!(key.limits.allow(n.as_f64().unwrap()), "{at}");
+            assert!(key.limits.allow(n.as_f64().unwrap()), "{path}");
         }
     }
 }
@@ -306,14 +306,14 @@ fn a_wrong_type_is_found_where_it_stands() {
                 // The last occurrence, because the scene precedes it.
                 let written = format!("\"{}\":{value}", key.name);
                 let text = lesson.file.text();
-                let at = text.rfind(&written).unwrap_or_else(|| panic!("{written} in {text}"))
+                let start = text.rfind(&written).unwrap_or_else(|| panic!("{written} in {text}"))
                     + key.name.len()
                     + 3;
-                let part = at + value.to_string().find(&part.to_string()).unwrap();
+                let part = start + value.to_string().find(&part.to_string()).unwrap();
                 let found = lesson
                     .findings
                     .iter()
-                    .any(|f| f.span.start <= part + 1 && f.span.end > part && f.span.start >= at);
+                    .any(|f| f.span.start <= part + 1 && f.span.end > part && f.span.start >= start);
                 assert!(found, "{}.{} = {value}: {:#?}", object.name, key.name, lesson.findings);
                 tried += 1;
             }
@@ -392,7 +392,7 @@ fn what_counts_where_a_key_is_left_out_is_what_is_declared() {
 #[test]
 fn declared_defaults_are_of_their_type() {
     for (object, key) in every_key() {
-        let at = format!("{}.{}", object.name, key.name);
+        let path = format!("{}.{}", object.name, key.name);
         let Some(default) = describe::default(key) else { continue };
         let fits = match key.ty {
             Type::Number | Type::Whole => default.is_number() && object.number(key.name).is_finite(),
@@ -401,7 +401,7 @@ fn declared_defaults_are_of_their_type() {
             Type::List(_) => default.is_array(),
             _ => default == json!({}),
         };
-        assert!(fits, "{at}");
+        assert!(fits, "{path}");
     }
 }
 

@@ -53,9 +53,9 @@ pub struct Difference {
     /// The measure, `run.measure`, or an expression with its own aggregates.
     pub name: String,
     /// Our value.
-    pub ours: f64,
+    pub labspec_value: f64,
     /// The reference value.
-    pub theirs: f64,
+    pub reference_value: f64,
     /// Why one of them is NaN, if that is known.
     pub no_value: Option<String>,
 }
@@ -63,9 +63,9 @@ pub struct Difference {
 impl Difference {
     /// Both values, and why one of them is NaN.
     pub fn describe(&self) -> String {
-        let [ours, theirs] = [self.ours, self.theirs].map(format_value);
+        let [labspec_value, reference_value] = [self.labspec_value, self.reference_value].map(format_value);
         let why = self.no_value.as_ref().map_or(String::new(), |why| format!(": {why}"));
-        format!("`{}` is {ours} here but {theirs} there{why}", self.name)
+        format!("`{}` is {labspec_value} here but {reference_value} there{why}", self.name)
     }
 }
 
@@ -104,14 +104,15 @@ pub(crate) fn judge(
 ) -> Option<Judged> {
     let nominal = bound.outcome(StepVariant::NOMINAL, &mut Vec::new())?;
     let mut judged = Judged::default();
-    let theirs = numbers::replaced(bound, verify, &nominal, reference, &mut judged);
-    numbers::compare(bound, verify, &nominal, &theirs, reference, &mut judged);
+    let with_reference = numbers::replaced(bound, verify, &nominal, reference, &mut judged);
+    numbers::compare(bound, verify, &nominal, &with_reference, reference, &mut judged);
     if judged.compared == 0 {
         return Some(judged);
     }
     // An answer over a range needs many runs that are not recorded: it is counted in [`Unjudged`].
     let verify = &Verify { over: Vec::new(), ..verify.clone() };
-    let [ours, current] = [&nominal, &theirs].map(|o| verdicts(bound, verify, question, rendered, o));
+    let [nominal_verdicts, current] =
+        [&nominal, &with_reference].map(|o| verdicts(bound, verify, question, rendered, o));
     let mut turn = |place: Range<usize>, what: &str, before: &str, after: &str, values: String| {
         judged.turned += 1;
         findings.push(
@@ -128,26 +129,26 @@ pub(crate) fn judge(
     };
     let most: Vec<String> = judged.differing.iter().take(3).map(Difference::describe).collect();
     let values = if most.is_empty() { "a run breaks in one of them".to_string() } else { most.join(", ") };
-    if let (Some(ours), Some(current)) = (&ours.0, &current.0) {
+    if let (Some(computed), Some(current)) = (&nominal_verdicts.0, &current.0) {
         judged.claims += 1;
-        if ours.verdict != current.verdict {
+        if computed.verdict != current.verdict {
             let right = question.and_then(Question::right_option).and_then(|i| verify.options.get(i));
             let place = verify.value.as_ref().or(right).map_or(verify.span.clone(), Text::span);
-            turn(place, "this answer", ours.verdict.as_str(), current.verdict.as_str(), values.clone());
+            turn(place, "this answer", computed.verdict.as_str(), current.verdict.as_str(), values.clone());
         }
     }
-    for (ours, current) in ours.1.iter().zip(&current.1) {
+    for (quote, current) in nominal_verdicts.1.iter().zip(&current.1) {
         judged.claims += 1;
-        if ours.state != current.state {
+        if quote.state != current.state {
             let numbers = format!(
                 "it is {} here but {} there",
-                format_value(ours.computed),
+                format_value(quote.computed),
                 format_value(current.computed)
             );
             turn(
-                ours.span.clone(),
-                &format!("\"{}\"", ours.text),
-                ours.verdict(),
+                quote.span.clone(),
+                &format!("\"{}\"", quote.text),
+                quote.verdict(),
                 current.verdict(),
                 numbers,
             );

@@ -21,9 +21,9 @@ pub(super) fn replaced(
     reference: &Reference<'_>,
     judged: &mut Judged,
 ) -> MeasuredRuns {
-    let mut theirs = nominal.clone();
+    let mut outcome = nominal.clone();
     let unknown = || Err("its run is not recorded".to_string());
-    for (i, run) in theirs.runs.iter_mut().enumerate() {
+    for (i, run) in outcome.runs.iter_mut().enumerate() {
         let title = run.title();
         let recorded = match reference.runs.get(i).cloned().unwrap_or_else(unknown) {
             Ok(recorded) => recorded,
@@ -44,14 +44,14 @@ pub(super) fn replaced(
         }
         // A breakdown that only our monitors detect, such as energy growth, is kept. A warning about bad numbers that only
         // our run has is not.
-        let only_ours = run.warnings > 0 && recorded.warnings == 0;
-        run.broke = recorded.broke.clone().or(run.broke.take().filter(|_| !only_ours));
+        let only_nominal = run.warnings > 0 && recorded.warnings == 0;
+        run.broke = recorded.broke.clone().or(run.broke.take().filter(|_| !only_nominal));
         run.warnings = recorded.warnings;
     }
     for text in own_texts(bound, verify) {
         let recorded = reference.runs.first().and_then(|run| run.as_ref().ok());
         match recorded.and_then(|t| t.values.get(&text.value)) {
-            Some(x) => theirs.elsewhere.push((text.value.clone(), *x)),
+            Some(x) => outcome.elsewhere.push((text.value.clone(), *x)),
             None => {
                 let why = recorded.and_then(|t| t.refused.get(&text.value));
                 let why = why.map_or("it is not recorded", String::as_str);
@@ -59,7 +59,7 @@ pub(super) fn replaced(
             }
         }
     }
-    theirs
+    outcome
 }
 
 /// Compares both outcomes.
@@ -67,7 +67,7 @@ pub(super) fn compare(
     bound: &BoundVerify<'_>,
     verify: &Verify,
     nominal: &MeasuredRuns,
-    theirs: &MeasuredRuns,
+    replaced: &MeasuredRuns,
     reference: &Reference<'_>,
     judged: &mut Judged,
 ) {
@@ -83,7 +83,7 @@ pub(super) fn compare(
         });
         titled.chain(own_values).collect()
     };
-    for (i, ((name, a), (_, b))) in numbers(nominal).into_iter().zip(numbers(theirs)).enumerate() {
+    for (i, ((name, a), (_, b))) in numbers(nominal).into_iter().zip(numbers(replaced)).enumerate() {
         if judged.unjudged.iter().any(|(unjudged, _)| *unjudged == name) {
             continue;
         }
@@ -102,7 +102,7 @@ pub(super) fn compare(
         let moved = others.iter().filter_map(|list| list.get(i)).map(|x| (x - a).abs()).fold(0.0, f64::max);
         if difference.is_nan() || difference > NUMERICS * moved {
             let no_value = why_nan(reference, nominal, &name, [a, b]);
-            judged.differing.push(Difference { name, ours: a, theirs: b, no_value });
+            judged.differing.push(Difference { name, labspec_value: a, reference_value: b, no_value });
         }
     }
 }
@@ -112,22 +112,22 @@ fn why_nan(
     reference: &Reference<'_>,
     nominal: &MeasuredRuns,
     name: &str,
-    [ours, theirs]: [f64; 2],
+    [labspec_value, reference_value]: [f64; 2],
 ) -> Option<String> {
     let runs = nominal.runs.iter().zip(&reference.runs);
     let mut reasons = runs.filter_map(|(run, recorded)| {
         let measure = name.strip_prefix(&run.title()).and_then(|rest| rest.strip_prefix('.'));
-        let ours_missing = || {
+        let no_labspec_value = || {
             let found = run.without_value.iter().find(|(other, _)| Some(other.as_str()) == measure);
             found.map(|(_, why)| format!("{why} here"))
         };
-        let theirs_missing = || {
+        let no_reference_value = || {
             let why = recorded.as_ref().ok()?.without_value.get(measure.unwrap_or(name))?;
             Some(format!("{why} there"))
         };
-        match (ours.is_nan(), theirs.is_nan()) {
-            (true, false) => ours_missing(),
-            (false, true) => theirs_missing(),
+        match (labspec_value.is_nan(), reference_value.is_nan()) {
+            (true, false) => no_labspec_value(),
+            (false, true) => no_reference_value(),
             _ => None,
         }
     });

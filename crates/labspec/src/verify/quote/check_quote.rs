@@ -29,7 +29,7 @@ pub(in crate::verify) fn check_quote(
         reason: String::new(),
         read: None,
         computed: value.computed,
-        places: places.iter().map(|p| p.at.clone()).collect(),
+        places: places.iter().map(|p| p.span.clone()).collect(),
         moved: Vec::new(),
     };
     let reading = match reading {
@@ -37,7 +37,7 @@ pub(in crate::verify) fn check_quote(
         Err(unread) => return report_unread(claim, unread, outcome, findings),
     };
     let compared = QuoteComparison::new(claim, reading, &mut places, value);
-    outcome.places = places.into_iter().map(|p| p.at).collect();
+    outcome.places = places.into_iter().map(|p| p.span).collect();
     outcome.computed = compared.computed;
     outcome.read = Some(compared.read);
     if outcome.places.is_empty() {
@@ -237,7 +237,7 @@ pub(in crate::verify) fn places_of_quote(
     rendered: &RenderedText,
 ) -> Vec<QuotePlace> {
     let inside =
-        |p: &&QuotePlace| question.is_some_and(|q| q.span.start <= p.at.start && p.at.end <= q.span.end);
+        |p: &&QuotePlace| question.is_some_and(|q| q.span.start <= p.span.start && p.span.end <= q.span.end);
     let (inside, others): (Vec<_>, Vec<_>) = rendered.found(quote.as_str()).iter().partition(inside);
     inside.into_iter().chain(others).cloned().collect()
 }

@@ -20,11 +20,11 @@ pub(super) fn clause_unit(chars: Chars<'_>, number: Range<usize>) -> Option<Unit
     named.extend(unit_directly_before(before));
     named.extend(unit_directly_after(behind));
     for part in [before, behind] {
-        named.extend(part.match_indices(['(', '[']).filter_map(|(at, _)| in_brackets(part.get(at..)?)));
+        named.extend(part.match_indices(['(', '[']).filter_map(|(start, _)| in_brackets(part.get(start..)?)));
         let words = [" in ", " as ", "In "].into_iter().flat_map(|word| {
-            part.match_indices(word).map(move |(at, word)| at + word.len()).collect::<Vec<_>>()
+            part.match_indices(word).map(move |(end, word)| end + word.len()).collect::<Vec<_>>()
         });
-        named.extend(words.filter_map(|at| after_in(part.get(at..)?)));
+        named.extend(words.filter_map(|end| after_in(part.get(end..)?)));
     }
     let first = named.first().cloned()?;
     let one = named.iter().all(|unit| *unit == first);
@@ -38,9 +38,9 @@ pub(super) fn clause_unit(chars: Chars<'_>, number: Range<usize>) -> Option<Unit
 /// The index of the next number in a text. The power of a unit does not count.
 fn next_number(text: &str) -> usize {
     let mut before = ' ';
-    for (at, c) in text.char_indices() {
+    for (offset, c) in text.char_indices() {
         if c.is_ascii_digit() && !before.is_alphanumeric() && !matches!(before, '^' | '*') {
-            return at;
+            return offset;
         }
         // The exponent of `s^-1`.
         before = if c == '-' && before == '^' { before } else { c };
@@ -51,18 +51,18 @@ fn next_number(text: &str) -> usize {
 /// The index at which the last clause of a text begins.
 fn last_end(text: &str) -> usize {
     let mut ends = text.rmatch_indices(['.', ';', '!', '?', '\n', '|']);
-    ends.find(|(at, mark)| is_end(text, *at, mark)).map_or(0, |(at, mark)| at + mark.len())
+    ends.find(|(offset, mark)| is_end(text, *offset, mark)).map_or(0, |(offset, mark)| offset + mark.len())
 }
 
 /// The index at which the first clause of a text ends.
 fn first_end(text: &str) -> usize {
     let mut ends = text.match_indices(['.', ';', '!', '?', '\n', '|']);
-    ends.find(|(at, mark)| is_end(text, *at, mark)).map_or(text.len(), |(at, _)| at)
+    ends.find(|(offset, mark)| is_end(text, *offset, mark)).map_or(text.len(), |(offset, _)| offset)
 }
 
 /// Whether a punctuation mark ends a clause. A decimal point, or a point without a following space, does not.
-fn is_end(text: &str, at: usize, mark: &str) -> bool {
-    mark != "." || text.get(at + 1..).is_none_or(|tail| tail.is_empty() || tail.starts_with([' ', '\n']))
+fn is_end(text: &str, offset: usize, mark: &str) -> bool {
+    mark != "." || text.get(offset + 1..).is_none_or(|tail| tail.is_empty() || tail.starts_with([' ', '\n']))
 }
 
 /// Whether a unit cannot be a symbol, because it has more than one letter.
@@ -121,9 +121,9 @@ fn unit_directly_before(text: &str) -> Option<String> {
 /// The unit by which a symbol is divided at the end of a text, as in `t / ms` or `v/(m/s)`. `4.3 m/s` has no such unit.
 fn divisor(text: &str) -> Option<String> {
     let mut strokes = text.match_indices(['/', '∕', '⁄']);
-    strokes.find_map(|(at, stroke)| {
-        let unit = whole(text.get(at + stroke.len()..)?)?;
-        let head = text.get(..at)?.trim_end().rsplit(' ').next()?;
+    strokes.find_map(|(offset, stroke)| {
+        let unit = whole(text.get(offset + stroke.len()..)?)?;
+        let head = text.get(..offset)?.trim_end().rsplit(' ').next()?;
         let symbol = head.starts_with(char::is_alphabetic) && whole(head).is_none();
         symbol.then_some(unit)
     })
@@ -160,7 +160,7 @@ mod tests {
     fn a_clause_names_the_unit_of_its_number() {
         let named = |text: &str| {
             let chars: Vec<char> = text.chars().collect();
-            let start = text.find("0.442").map(|at| text[..at].chars().count()).unwrap();
+            let start = text.find("0.442").map(|offset| text[..offset].chars().count()).unwrap();
             clause_unit(Chars(&chars), start..start + 5).map(|unit| unit.text)
         };
         for (text, unit) in [

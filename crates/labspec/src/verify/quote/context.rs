@@ -152,13 +152,13 @@ pub(super) const FIGURES: &str = "零〇一二三四五六七八九十百千万�
 /// The reason why the text before a number or its sign changes its meaning; `None` if it does not.
 /// The function is long because it is one table: a row for each character that may precede a number.
 pub(super) fn before(chars: Chars<'_>, start: usize) -> Option<&'static str> {
-    let (mut at, mut attached, mut within) = (start, true, false);
+    let (mut index, mut attached, mut within) = (start, true, false);
     let c = loop {
-        let c = chars.before(at).filter(|c| *c != '\n')?;
+        let c = chars.before(index).filter(|c| *c != '\n')?;
         match c {
             ' ' => attached = false,
             '(' | '[' => {
-                let outer = at.checked_sub(1).and_then(|k| chars.before(k));
+                let outer = index.checked_sub(1).and_then(|k| chars.before(k));
                 if outer.is_some_and(|c| c.is_alphanumeric() && !is_wide(c) || matches!(c, '^' | '_' | '√'))
                 {
                     return Some(FORMULA);
@@ -168,12 +168,12 @@ pub(super) fn before(chars: Chars<'_>, start: usize) -> Option<&'static str> {
             '"' | '“' | '”' | '\'' | '‘' | '«' | '»' | '„' | '「' | '『' | '‹' | '›' => {}
             c => break c,
         }
-        at -= 1;
-        if start - at > MAX_CONTEXT {
+        index -= 1;
+        if start - index > MAX_CONTEXT {
             return Some(UNKNOWN_PREFIX);
         }
     };
-    let previous = at.checked_sub(1).and_then(|k| chars.before(k));
+    let previous = index.checked_sub(1).and_then(|k| chars.before(k));
     let digit_before = previous.is_some_and(|c| c.is_numeric());
     match c {
         '<' | '>' if matches!(previous, Some('-' | '=')) && c == '>' => None,
@@ -194,11 +194,11 @@ pub(super) fn before(chars: Chars<'_>, start: usize) -> Option<&'static str> {
         '…' if attached => Some(DIFFERENCE),
         ')' | ']' if attached && !within => Some(FORMULA),
         ')' if matches!(previous, Some('-' | '–' | '+' | '±')) => Some(FORMULA),
-        c if is_wide(c) => unspaced_before(chars, at),
+        c if is_wide(c) => unspaced_before(chars, index),
         // A fraction character that multiplies the number.
         c if c.is_numeric() && !c.is_ascii_digit() && !c.is_alphabetic() => Some(FORMULA),
         c if c.is_alphanumeric() && attached => Some(UNKNOWN_PREFIX),
-        c if c.is_alphanumeric() => words_before(chars, at),
+        c if c.is_alphanumeric() => words_before(chars, index),
         '%' => None,
         '\u{2200}'..='\u{22ff}' | '\u{2a00}'..='\u{2aff}'
             if !matches!(c, '≈' | '≃' | '≅' | '∼' | '≡' | '⇒' | '∴') =>
@@ -214,15 +214,15 @@ pub(super) fn before(chars: Chars<'_>, start: usize) -> Option<&'static str> {
     }
 }
 
-fn unspaced_before(chars: Chars<'_>, at: usize) -> Option<&'static str> {
-    let near = chars.text(at.saturating_sub(8), at);
+fn unspaced_before(chars: Chars<'_>, index: usize) -> Option<&'static str> {
+    let near = chars.text(index.saturating_sub(8), index);
     let figure = near.chars().next_back().is_some_and(|c| FIGURES.contains(c));
     (figure || UNSPACED_CHANGING_WORDS.into_iter().any(|w| near.ends_with(w))).then_some(UNKNOWN_PREFIX)
 }
 
-/// The reason why the words that end at index `at` change the meaning of the number.
-fn words_before(chars: Chars<'_>, at: usize) -> Option<&'static str> {
-    let near = chars.text(at.saturating_sub(MAX_CONTEXT), at);
+/// The reason why the words that end at `index` change the meaning of the number.
+fn words_before(chars: Chars<'_>, index: usize) -> Option<&'static str> {
+    let near = chars.text(index.saturating_sub(MAX_CONTEXT), index);
     let line = near.rsplit('\n').next().unwrap_or("").to_lowercase();
     let ends =
         |word: &str| line.strip_suffix(word).is_some_and(|rest| !rest.ends_with(char::is_alphanumeric));

@@ -104,8 +104,8 @@ pub(super) fn after(chars: Chars<'_>, end: usize, has_unit: bool) -> Option<&'st
 const PUNCTUATION: &str = "”’»›“‘„«—–‑…†‡§≈≃≅∼≡→⇒∴•·、。，：；！？）」』】（「『【．～〜";
 
 /// Whether the word at an index is a unit.
-fn is_unit_at(chars: Chars<'_>, at: usize) -> bool {
-    let near = chars.text(at, at + MAX_CONTEXT);
+fn is_unit_at(chars: Chars<'_>, index: usize) -> bool {
+    let near = chars.text(index, index + MAX_CONTEXT);
     let word: String = near.chars().take_while(|c| c.is_alphabetic()).collect();
     units::is_unit(&word)
 }
@@ -116,16 +116,16 @@ fn combines(c: char) -> bool {
 }
 
 /// The reason for text after the bracket that closes directly after a quantity.
-fn after_bracket(chars: Chars<'_>, mut at: usize) -> Option<&'static str> {
-    while matches!(chars.at(at), Some(')' | ']')) {
-        at += 1;
+fn after_bracket(chars: Chars<'_>, mut index: usize) -> Option<&'static str> {
+    while matches!(chars.at(index), Some(')' | ']')) {
+        index += 1;
     }
-    let next = chars.skip_blanks(at);
+    let next = chars.skip_blanks(index);
     match chars.at(next) {
         Some('^' | '×' | '·' | '*' | '÷' | '/' | '⁄' | '∕' | '∙' | '√' | '²' | '³') => {
             Some(FORMULA)
         }
-        Some(c) if next == at && (c.is_alphanumeric() && !is_wide(c) || c == '(' || c == '\\') => {
+        Some(c) if next == index && (c.is_alphanumeric() && !is_wide(c) || c == '(' || c == '\\') => {
             Some(FORMULA)
         }
         Some('+') => Some(FORMULA),
@@ -134,8 +134,8 @@ fn after_bracket(chars: Chars<'_>, mut at: usize) -> Option<&'static str> {
     }
 }
 
-fn unspaced_after(chars: Chars<'_>, at: usize) -> Option<&'static str> {
-    let near = chars.text(at, at + 4);
+fn unspaced_after(chars: Chars<'_>, index: usize) -> Option<&'static str> {
+    let near = chars.text(index, index + 4);
     let figure = near.chars().next().is_some_and(|c| FIGURES.contains(c) || c == '每' || c == '毎');
     let fraction = near
         .strip_prefix('の')
@@ -202,26 +202,27 @@ const PART_WORDS: [&str; 18] = [
 const ADJACENT_NUMBER: &str = "a number directly followed by another one";
 const UNKNOWN_SUFFIX: &str = "a number that the words after it modify";
 
-fn words_after(chars: Chars<'_>, at: usize) -> Option<&'static str> {
-    let near = chars.text(at, at + MAX_CONTEXT);
+fn words_after(chars: Chars<'_>, index: usize) -> Option<&'static str> {
+    let near = chars.text(index, index + MAX_CONTEXT);
     let line = near.split('\n').next().unwrap_or("").to_lowercase();
     let begins =
         |word: &str| line.strip_prefix(word).is_some_and(|rest| !rest.starts_with(char::is_alphanumeric));
     if CHANGING_WORDS.into_iter().any(begins) {
         return Some(UNKNOWN_SUFFIX);
     }
-    letter(chars, at)
+    letter(chars, index)
 }
 
 /// A single letter is a symbol of a formula, unless it is a word.
-fn letter(chars: Chars<'_>, at: usize) -> Option<&'static str> {
-    let alone = !chars.at(at + 1).is_some_and(|c| c.is_alphanumeric() || c == '\'' || c == '-' || c == '.');
-    let c = chars.at(at)?;
-    let digits = matches!(c, 'e' | 'E') && chars.digit(at + 1);
+fn letter(chars: Chars<'_>, index: usize) -> Option<&'static str> {
+    let alone =
+        !chars.at(index + 1).is_some_and(|c| c.is_alphanumeric() || c == '\'' || c == '-' || c == '.');
+    let c = chars.at(index)?;
+    let digits = matches!(c, 'e' | 'E') && chars.digit(index + 1);
     let symbol = c.is_alphabetic()
         && !is_wide(c)
         && alone
         && !matches!(c, 'a' | 'I' | 'à' | 'y' | 'e' | 'o' | 'u' | 'A' | 'i');
-    let indexed = c.is_alphabetic() && matches!(chars.at(at + 1), Some('_' | '^' | '('));
+    let indexed = c.is_alphabetic() && matches!(chars.at(index + 1), Some('_' | '^' | '('));
     (symbol || digits || indexed).then_some(FORMULA)
 }

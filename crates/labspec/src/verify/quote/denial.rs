@@ -32,7 +32,7 @@ const MAX_CLAUSE: usize = 1000;
 
 /// Whether the words at the end of a line negate the following text.
 pub(super) fn is_denied(line: &str) -> bool {
-    let start = line.char_indices().rev().take(MAX_CLAUSE).last().map_or(0, |(at, _)| at);
+    let start = line.char_indices().rev().take(MAX_CLAUSE).last().map_or(0, |(offset, _)| offset);
     let line = line.get(start..).unwrap_or("");
     let clause =
         line.rsplit(['\n', '.', ',', ';', ':', '(', '—', '?', '!']).next().unwrap_or("").to_lowercase();
@@ -45,10 +45,10 @@ pub(super) fn is_denied(line: &str) -> bool {
     let of_noun = |word: &&str| NOUN_NEGATIONS.0.contains(word);
     let first = near.iter().take(VERB_NEGATIONS.1).position(of_verb);
     let first = first.or_else(|| near.iter().take(NOUN_NEGATIONS.1).position(of_noun));
-    first.is_some_and(|at| {
+    first.is_some_and(|index| {
         // `whether or not it tips over`
-        let either = near.get(at + 1) == Some(&"or");
-        !either && !near.iter().take(at).any(|word| ENDS.contains(word))
+        let either = near.get(index + 1) == Some(&"or");
+        !either && !near.iter().take(index).any(|word| ENDS.contains(word))
     })
 }
 

@@ -21,37 +21,37 @@ pub(super) fn fold(text: &str, flat: bool) -> (String, SourceMap) {
         glue: true,
         row: None,
     };
-    let mut at = 0;
-    while let Some(rest) = text.get(at..).filter(|rest| !rest.is_empty()) {
+    let mut offset = 0;
+    while let Some(rest) = text.get(offset..).filter(|rest| !rest.is_empty()) {
         let plain = rest.bytes().take_while(|&b| is_plain(b)).count();
         if plain > 0 {
-            out.run(rest.get(..plain).unwrap_or(""), at);
-            at += plain;
+            out.run(rest.get(..plain).unwrap_or(""), offset);
+            offset += plain;
             continue;
         }
         let c = rest.chars().next().unwrap_or(' ');
         if let Ok((tail, rendered)) = siunitx::quantity(rest) {
             let end = text.len() - tail.len();
-            out.whole(&rendered, at..end);
-            at = end;
+            out.whole(&rendered, offset..end);
+            offset = end;
             continue;
         }
         if let Ok((tail, _)) = unseen(rest) {
-            at = text.len() - tail.len();
+            offset = text.len() - tail.len();
             continue;
         }
         // The arguments of a command are separate: `\frac{0.5}{2}` is not 0.52.
         if rest.starts_with("}{") {
-            out.push('⁄', at..at + 2, text);
-            at += 2;
+            out.push('⁄', offset..offset + 2, text);
+            offset += 2;
             continue;
         }
         let (what, length) = if c == '\\' { command(rest) } else { (meaning(c, flat), c.len_utf8()) };
-        let range = at..at + length;
+        let range = offset..offset + length;
         match what {
             Meaning::Space => out.wait(range),
             Meaning::Nothing => {}
-            Meaning::Separator => out.separate(at),
+            Meaning::Separator => out.separate(offset),
             Meaning::Tilde if out.text.ends_with(|c: char| c.is_ascii_digit()) && out.space.is_none() => {
                 out.wait(range)
             }
@@ -65,10 +65,10 @@ pub(super) fn fold(text: &str, flat: bool) -> (String, SourceMap) {
             }
             Meaning::Verbatim => {
                 let word = rest.get(..length).unwrap_or("");
-                out.run(word, at);
+                out.run(word, offset);
             }
         }
-        at += length;
+        offset += length;
     }
     (out.text, out.map)
 }
@@ -211,10 +211,10 @@ impl Out {
         self.row = None;
     }
 
-    fn run(&mut self, word: &str, at: usize) {
+    fn run(&mut self, word: &str, offset: usize) {
         self.settle();
         self.text.push_str(word);
-        self.map.push_verbatim(at..at + word.len());
+        self.map.push_verbatim(offset..offset + word.len());
     }
 
     fn push(&mut self, c: char, range: Range<usize>, source: &str) {
@@ -244,12 +244,12 @@ impl Out {
         self.row = Some(mark);
     }
 
-    fn separate(&mut self, at: usize) {
+    fn separate(&mut self, offset: usize) {
         self.space = None;
         self.glue = true;
         if !self.text.is_empty() && !self.text.ends_with('\n') {
             self.text.push('\n');
-            self.map.push_whole(1, at..at);
+            self.map.push_whole(1, offset..offset);
         }
     }
 }
@@ -280,8 +280,8 @@ mod tests {
         let text = "takes $2.4 \\times 10^{-4}$ s";
         let (folded, map) = fold(text, true);
         assert_eq!(folded, "takes 2.4×10^-4 s");
-        let at = folded.find("2.4").unwrap();
-        assert_eq!(&text[map.span(at..folded.len())], "2.4 \\times 10^{-4}$ s");
+        let offset = folded.find("2.4").unwrap();
+        assert_eq!(&text[map.span(offset..folded.len())], "2.4 \\times 10^{-4}$ s");
     }
     /// Text of 100 kB of any opening character is read in linear time.
     #[test]

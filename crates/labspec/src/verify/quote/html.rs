@@ -45,17 +45,17 @@ fn strip_after(html: &str, hidden: &mut HiddenElement) -> (String, SourceMap) {
                 let unseen = hidden.take_tag(&tag);
                 if let Some(c) = mark(&tag).filter(|_| parts || !unseen) {
                     text.push(c);
-                    map.push_whole(c.len_utf8(), tag.at);
+                    map.push_whole(c.len_utf8(), tag.span);
                 }
             }
             HtmlToken::Text(_) | HtmlToken::Decoded(..) if hidden.is_on() => {}
-            HtmlToken::Text(at) => {
-                text.push_str(html.get(at.clone()).unwrap_or(""));
-                map.push_verbatim(at);
+            HtmlToken::Text(span) => {
+                text.push_str(html.get(span.clone()).unwrap_or(""));
+                map.push_verbatim(span);
             }
-            HtmlToken::Decoded(decoded, at) => {
+            HtmlToken::Decoded(decoded, span) => {
                 text.push_str(&decoded);
-                map.push_whole(decoded.len(), at);
+                map.push_whole(decoded.len(), span);
             }
         }
     }

@@ -17,14 +17,14 @@ pub(super) const MAX_ROW_LENGTH: usize = 2000;
 const ROWS: usize = 200;
 
 impl MarkdownCell {
-    pub(super) fn at(file: &str, at: usize) -> Option<MarkdownCell> {
-        let before = file.get(..at)?;
+    pub(super) fn at(file: &str, offset: usize) -> Option<MarkdownCell> {
+        let before = file.get(..offset)?;
         let start = before.rfind('\n').map_or(0, |i| i + 1);
-        let end = file.get(at..)?.find('\n').map_or(file.len(), |i| at + i);
+        let end = file.get(offset..)?.find('\n').map_or(file.len(), |i| offset + i);
         let row = file
             .get(start..end)
             .filter(|row| row.trim_start().starts_with('|') && row.len() < MAX_ROW_LENGTH)?;
-        let column = file.get(start..at)?.matches('|').count();
+        let column = file.get(start..offset)?.matches('|').count();
         let mut above = file.get(..start)?.lines().rev().take(ROWS);
         let rule = |line: &str| line.trim_start().starts_with('|') && line.contains("---");
         above.by_ref().take_while(|line| line.trim_start().starts_with('|')).find(|line| rule(line))?;
@@ -34,8 +34,8 @@ impl MarkdownCell {
 }
 
 /// The unit in the heading of the column of a cell.
-pub(super) fn unit_of_column(file: &str, at: usize) -> Option<Unit> {
-    unit_of_head(&rendered(&MarkdownCell::at(file, at)?.head))
+pub(super) fn unit_of_column(file: &str, offset: usize) -> Option<Unit> {
+    unit_of_head(&rendered(&MarkdownCell::at(file, offset)?.head))
 }
 
 /// The unit of a heading: `error (mm)`, `t [ms]`, `x / mm`, `time in ms`, `depth, mm`, `t (10^-3 s)`.
@@ -62,8 +62,8 @@ mod tests {
     #[test]
     fn a_cell_has_its_column_head() {
         let text = "x\n\n| h (s) | error (mm) |\n|---:|---:|\n| 0.1 | -0.7 |\n| 0.2 | -1.4 |\n";
-        let at = text.find("1.4").unwrap_or(0);
-        assert_eq!(MarkdownCell::at(text, at).map(|c| c.head), Some("error (mm)".into()));
+        let offset = text.find("1.4").unwrap_or(0);
+        assert_eq!(MarkdownCell::at(text, offset).map(|c| c.head), Some("error (mm)".into()));
         assert!(MarkdownCell::at("no 1 table", 3).is_none());
     }
 }

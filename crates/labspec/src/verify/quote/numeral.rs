@@ -307,7 +307,7 @@ fn numeral(text: &str, negative: bool) -> (Numeral, usize) {
 /// `L^2`, `3D`, `2nd`) are skipped.
 pub(super) fn numbers(chars: Chars<'_>) -> Vec<(Numeral, usize)> {
     let text = chars.text(0, chars.0.len());
-    let bytes: Vec<usize> = text.char_indices().map(|(at, _)| at).collect();
+    let bytes: Vec<usize> = text.char_indices().map(|(offset, _)| offset).collect();
     let mut all: Vec<(Numeral, usize)> = Vec::new();
     let mut i = 0;
     while let Some(c) = chars.at(i) {
@@ -339,7 +339,7 @@ pub(super) fn numbers(chars: Chars<'_>) -> Vec<(Numeral, usize)> {
                 (negative, start) = (true, edge);
             }
         }
-        let tail = bytes.get(i).and_then(|at| text.get(*at..)).unwrap_or("");
+        let tail = bytes.get(i).and_then(|offset| text.get(*offset..)).unwrap_or("");
         let (found, length) = numeral(tail, negative);
         let end = i + tail.get(..length).map_or(0, |number| number.chars().count());
         let found = Numeral { start, end, ..found };

@@ -162,10 +162,10 @@ pub(in crate::verify) fn option_ratio(option: &str) -> Option<OptionRatio> {
     let chars = Chars(&chars);
     let all = quantities(chars);
     let lower = folded.to_lowercase();
-    let is_word = |at: usize, length: usize| {
+    let is_word = |start: usize, length: usize| {
         let letter = |c: Option<char>| c.is_some_and(char::is_alphanumeric);
-        !letter(lower.get(..at).and_then(|t| t.chars().next_back()))
-            && !letter(lower.get(at + length..).and_then(|t| t.chars().next()))
+        !letter(lower.get(..start).and_then(|t| t.chars().next_back()))
+            && !letter(lower.get(start + length..).and_then(|t| t.chars().next()))
     };
     // Example: `two and a half times`.
     if lower.contains("and a half") {
@@ -173,7 +173,7 @@ pub(in crate::verify) fn option_ratio(option: &str) -> Option<OptionRatio> {
     }
     let words: Vec<(String, f64)> = FACTOR_WORDS
         .iter()
-        .filter(|(word, _)| lower.match_indices(word).any(|(at, found)| is_word(at, found.len())))
+        .filter(|(word, _)| lower.match_indices(word).any(|(start, found)| is_word(start, found.len())))
         .map(|(word, x)| (word.to_string(), *x))
         .collect();
     let (text, x, share) = match (all.as_slice(), words.as_slice()) {
@@ -241,14 +241,15 @@ fn spelled(text: &str) -> String {
     words.sort_by_key(|(word, _)| std::cmp::Reverse(word.len()));
     for (word, figure) in words {
         let lower = all.to_lowercase();
-        let Some(at) = lower.find(word).filter(|_| lower.len() == all.len()) else { continue };
-        let (before, after) = (lower.get(..at).unwrap_or(""), lower.get(at + word.len()..).unwrap_or(""));
+        let Some(start) = lower.find(word).filter(|_| lower.len() == all.len()) else { continue };
+        let (before, after) =
+            (lower.get(..start).unwrap_or(""), lower.get(start + word.len()..).unwrap_or(""));
         let unit = after.strip_prefix(' ').and_then(|rest| {
             let length = rest.find(|c: char| !c.is_alphabetic()).unwrap_or(rest.len());
             units::read(rest).filter(|u| u.length >= length && length > 1 && u.dimension.is_some())
         });
         if unit.is_some() && !before.ends_with(char::is_alphanumeric) {
-            all.replace_range(at..at + word.len(), figure);
+            all.replace_range(start..start + word.len(), figure);
         }
     }
     all

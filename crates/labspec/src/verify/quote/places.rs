@@ -53,7 +53,7 @@ impl Search {
         let number = self.needles.len();
         // A longer text is not searched, and its numbers are not read.
         let digit = digit.filter(|_| folded.len() <= MAX_LENGTH);
-        let tail = digit.and_then(|at| folded.get(at..)).unwrap_or("");
+        let tail = digit.and_then(|start| folded.get(start..)).unwrap_or("");
         let mut node = 0;
         for &b in tail.as_bytes() {
             node = match self.child(node, b) {
@@ -95,12 +95,12 @@ impl Search {
                 continue;
             }
             let mut node = 0;
-            for (at, &b) in bytes.iter().enumerate().skip(start) {
+            for (index, &b) in bytes.iter().enumerate().skip(start) {
                 self.work += 1;
                 let Some(next) = self.child(node, b) else { break };
                 node = next;
                 for i in 0..self.nodes.get(node).map_or(0, |n| n.ends.len()) {
-                    self.note(node, i, start, at + 1, text);
+                    self.note(node, i, start, index + 1, text);
                 }
             }
         }
@@ -180,8 +180,8 @@ impl Readable {
         if !whole_words(&self.flat, bytes) {
             return None;
         }
-        let at = |byte: usize| self.character.get(byte).map(|i| *i as usize);
-        let (start, end) = (at(bytes.start)?, at(bytes.end)?);
+        let character_at = |byte: usize| self.character.get(byte).map(|i| *i as usize);
+        let (start, end) = (character_at(bytes.start)?, character_at(bytes.end)?);
         let among = |all: &[Quantity]| states(all, start..end, quantities);
         let unit = among(&self.quantities).or_else(|| among(&self.separate))?;
         Some(QuoteMatch { bytes: bytes.clone(), unit })
@@ -195,32 +195,33 @@ fn states(all: &[Quantity], range: Range<usize>, quantities: &[Quantity]) -> Opt
     let first = all.partition_point(|q| q.whole.end <= start);
     let mut here = all.get(first..)?.iter().take_while(|q| q.whole.start < end);
     let mut unit = None;
-    for (i, mine) in quantities.iter().enumerate() {
-        let theirs = here.next()?;
-        let inside = theirs.digits == start + mine.digits && theirs.number_end == start + mine.number_end;
+    for (i, quoted) in quantities.iter().enumerate() {
+        let in_text = here.next()?;
+        let inside =
+            in_text.digits == start + quoted.digits && in_text.number_end == start + quoted.number_end;
         // A plus sign before it has no meaning.
-        let begins = theirs.whole.start >= start || theirs.whole.start + 1 == start;
+        let begins = in_text.whole.start >= start || in_text.whole.start + 1 == start;
         // A quote that cannot be read gets a finding when it is read.
-        let clear = mine.refused.is_some() || theirs.refused.is_none();
-        if !(inside && begins && clear && mine.states(theirs)) {
+        let clear = quoted.refused.is_some() || in_text.refused.is_none();
+        if !(inside && begins && clear && quoted.states(in_text)) {
             return None;
         }
         let text = |q: &Quantity| q.unit.as_ref().map(|u| u.text.clone());
-        if text(mine) == text(theirs) {
-            if theirs.whole.end > end && theirs.unit.as_ref().is_some_and(|u| u.link == Link::Direct) {
+        if text(quoted) == text(in_text) {
+            if in_text.whole.end > end && in_text.unit.as_ref().is_some_and(|u| u.link == Link::Direct) {
                 return None;
             }
             continue;
         }
         let last = i + 1 == quantities.len();
-        if mine.unit.is_some() && !mine.unit.as_ref().is_some_and(|u| u.link != Link::Direct) || !last {
+        if quoted.unit.is_some() && !quoted.unit.as_ref().is_some_and(|u| u.link != Link::Direct) || !last {
             return None;
         }
         // In `0.7 mm per step`, the number alone is not the quantity.
-        if theirs.unit.as_ref().is_some_and(|u| u.dimension.is_none() && u.link != Link::Clause) {
+        if in_text.unit.as_ref().is_some_and(|u| u.dimension.is_none() && u.link != Link::Clause) {
             return None;
         }
-        unit = theirs.unit.clone();
+        unit = in_text.unit.clone();
     }
     here.next().is_none().then_some(unit)
 }
@@ -234,7 +235,7 @@ mod tests {
         Readable::new(fold::fold(text, true).0, &chars)
     }
 
-    fn at(text: &str, quote: &str) -> Vec<usize> {
+    fn starts_of(text: &str, quote: &str) -> Vec<usize> {
         let mut search = Search::new();
         let n = search.add(quote);
         search.walk(&readable(text));
@@ -275,7 +276,7 @@ mod tests {
             ("0.5 gives a second bounce", "0.5", vec![0]),
             ("0.01 s steps", "0.01 s", vec![0]),
         ] {
-            assert_eq!(at(text, quote), found, "{quote} in {text}");
+            assert_eq!(starts_of(text, quote), found, "{quote} in {text}");
         }
         for (text, quote) in [
             ("at 0.442 s", "0.44"),
@@ -299,7 +300,7 @@ mod tests {
             ("0.4–0.5", "0.5"),
             ("run 2 500 N", "500 N"),
         ] {
-            assert_eq!(at(text, quote), Vec::<usize>::new(), "{quote} in {text}");
+            assert_eq!(starts_of(text, quote), Vec::<usize>::new(), "{quote} in {text}");
         }
     }
 

@@ -61,7 +61,7 @@ fn read(lesson: &Lesson) -> (Vec<Text>, Vec<RenderedTable>) {
         notes: notes(text),
     };
     let (mut from, mut read) = (0, text.len());
-    while let Some(resume) = reader.pass(from).filter(|&at| at > from && read < MAX_REREAD) {
+    while let Some(resume) = reader.pass(from).filter(|&offset| offset > from && read < MAX_REREAD) {
         from = resume;
         read += text.len() - from;
     }
@@ -201,18 +201,18 @@ impl ProseReader<'_> {
         if self.text.get(range.clone()) != Some(part) {
             return;
         }
-        let mut at = range.start;
+        let mut offset = range.start;
         for line in part.split_inclusive('\n') {
             let pair = line
                 .split_once(':')
                 .filter(|(key, _)| self.front_matter.iter().any(|displayed| displayed == key.trim()));
             if let Some((key, value)) = pair {
                 let displayed = value.trim().trim_matches(['"', '\'']);
-                let start = at + key.len() + 1 + value.find(displayed).unwrap_or(0);
+                let start = offset + key.len() + 1 + value.find(displayed).unwrap_or(0);
                 self.add(displayed, start..start + displayed.len());
                 self.close();
             }
-            at += line.len();
+            offset += line.len();
         }
     }
 
@@ -268,11 +268,11 @@ impl ProseReader<'_> {
     }
 
     /// Words between double tildes are struck out; single tildes are characters.
-    fn strike(&mut self, range: &Range<usize>, at: usize, by: isize) {
+    fn strike(&mut self, range: &Range<usize>, offset: usize, by: isize) {
         if self.text.get(range.clone()).is_some_and(|text| text.starts_with("~~")) {
             self.unseen = self.unseen.saturating_add_signed(by);
         } else if self.unseen == 0 && !self.hidden.is_on() {
-            self.whole(Some('~'), at..at + 1);
+            self.whole(Some('~'), offset..offset + 1);
         }
     }
 
@@ -299,8 +299,8 @@ impl ProseReader<'_> {
     /// Appends code or a formula, whose range includes its delimiters.
     fn inside(&mut self, part: &str, range: Range<usize>) {
         let outer = self.text.get(range.clone()).unwrap_or("");
-        let at = outer.find(part).map(|i| range.start + i);
-        let inner = at.map_or(range, |at| at..at + part.len());
+        let start = outer.find(part).map(|i| range.start + i);
+        let inner = start.map_or(range, |start| start..start + part.len());
         self.add(part, inner);
     }
 
@@ -318,12 +318,12 @@ impl ProseReader<'_> {
             self.close();
             return;
         }
-        let mut at = range.start;
+        let mut offset = range.start;
         for line in part.split_inclusive('\n') {
-            self.add(line, at..at + line.len());
+            self.add(line, offset..offset + line.len());
             self.close();
-            self.output.push((line.trim_end().to_string(), at));
-            at += line.len();
+            self.output.push((line.trim_end().to_string(), offset));
+            offset += line.len();
         }
     }
 }

@@ -248,8 +248,8 @@ fn join_pair(
     })
 }
 
-fn word_before(chars: Chars<'_>, at: usize, word: &str) -> bool {
-    let near = chars.text(at.saturating_sub(20), at).to_lowercase();
+fn word_before(chars: Chars<'_>, index: usize, word: &str) -> bool {
+    let near = chars.text(index.saturating_sub(20), index).to_lowercase();
     near.trim_end()
         .strip_suffix(word)
         .is_some_and(|rest| !rest.ends_with(char::is_alphanumeric) || !word.is_ascii())

@@ -69,7 +69,7 @@ pub(in crate::verify) struct QuoteClaim<'c> {
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::verify) struct QuotePlace {
     /// Bytes of the file.
-    pub(in crate::verify) at: Range<usize>,
+    pub(in crate::verify) span: Range<usize>,
     /// The unit that the text has after the last number of the quote, or in the heading of its column, where the quote
     /// itself has none.
     pub(in crate::verify) unit: Option<Unit>,

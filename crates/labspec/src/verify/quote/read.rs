@@ -80,18 +80,18 @@ pub(in crate::verify) fn read_quote_in(text: &str, languages: Languages) -> Resu
     let chars = Chars(&chars);
     let all = quantities(chars);
     let equals = last_equals(chars, &all);
-    let Some(at) = all.iter().position(|q| equals.is_none_or(|i| q.whole.start > i)) else {
+    let Some(index) = all.iter().position(|q| equals.is_none_or(|i| q.whole.start > i)) else {
         let folded = chars.text(0, MAX_QUOTE);
         let is_formula = ["frac", "sqrt", "√"].into_iter().any(|word| folded.contains(word));
         return Err(if is_formula { Unread::Form("a formula") } else { Unread::NoNumber });
     };
-    let Some(first) = all.get(at) else { return Err(Unread::NoNumber) };
+    let Some(first) = all.get(index) else { return Err(Unread::NoNumber) };
     if first.change {
         return Err(Unread::Form("a change from one number to another, or a range"));
     }
     let mut reading = of_quantity(chars, first, languages)?;
     let several = "it contains more than one number";
-    let others = all.get(at + 1..).unwrap_or_default();
+    let others = all.get(index + 1..).unwrap_or_default();
     reading.last = others.is_empty();
     if !matches!(reading.read.form, NumberForm::PlusMinus(..) | NumberForm::Range(..)) {
         reading.ambiguities.extend(others.iter().map(|q| (q.quoted, several)));

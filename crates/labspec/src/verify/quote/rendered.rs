@@ -56,17 +56,18 @@ impl RenderedText {
             let words = if wordy.contains(&quote) { find_words(&text.flat, quote) } else { Vec::new() };
             let found = search.found(number).iter().map(|f| (f.bytes.clone(), f.unit.clone()));
             let place = |(bytes, unit)| {
-                let at = lesson.file.snap(&map.span(bytes));
+                let span = lesson.file.snap(&map.span(bytes));
                 // A number in a cell has the unit of its column.
-                let of_column = || unit_of_column(file, at.start);
+                let of_column = || unit_of_column(file, span.start);
                 let unit = if has_number(quote) { Option::or_else(unit, of_column) } else { None };
-                QuotePlace { at, unit }
+                QuotePlace { span, unit }
             };
-            let mut places: Vec<_> = found.chain(words.into_iter().map(|at| (at, None))).map(place).collect();
+            let mut places: Vec<_> =
+                found.chain(words.into_iter().map(|span| (span, None))).map(place).collect();
             if places.is_empty() {
-                places.extend(sliders.get(quote).map(|at| QuotePlace { at: at.clone(), unit: None }));
+                places.extend(sliders.get(quote).map(|span| QuotePlace { span: span.clone(), unit: None }));
             }
-            places.sort_by_key(|p| (p.at.start, p.at.end));
+            places.sort_by_key(|p| (p.span.start, p.span.end));
             places.dedup();
             if places.is_empty() && rendered.hidden.len() < MAX_HIDDEN {
                 let place = unseen(quote, file, lesson);
@@ -79,7 +80,7 @@ impl RenderedText {
 
     /// The places where a quote appears as a separate number, in bytes of the file.
     pub fn places(&self, quote: &str) -> Vec<Range<usize>> {
-        self.found(quote).iter().map(|p| p.at.clone()).collect()
+        self.found(quote).iter().map(|p| p.span.clone()).collect()
     }
 
     /// The places where a quote appears as a separate number, with the units in the text.
@@ -92,7 +93,7 @@ impl RenderedText {
         let inside = |r: &&Range<usize>| block.start <= r.start && r.end <= block.end;
         let places = verify.says.iter().map(|quoted| {
             let quote = quoted.quote.as_str();
-            (quote.to_string(), self.found(quote).iter().filter(|p| inside(&&p.at)).cloned().collect())
+            (quote.to_string(), self.found(quote).iter().filter(|p| inside(&&p.span)).cloned().collect())
         });
         let begins = |t: &&RenderedTable| t.head.first().is_some_and(|cell| inside(&&cell.span));
         let tables = self.tables.iter().filter(|_| !verify.table.is_empty()).filter(begins);
@@ -165,7 +166,7 @@ fn find_words(text: &str, quote: &str) -> Vec<Range<usize>> {
     }
     let goes_on =
         |a: Option<char>, b: Option<char>| [a, b].iter().all(|c| c.is_some_and(char::is_alphanumeric));
-    let found = text.match_indices(&searched).map(|(at, found)| at..at + found.len());
+    let found = text.match_indices(&searched).map(|(start, found)| start..start + found.len());
     let stands_alone = |r: &Range<usize>| {
         let [before, after] = [text.get(..r.start).unwrap_or(""), text.get(r.end..).unwrap_or("")];
         !goes_on(before.chars().next_back(), searched.chars().next())
@@ -184,7 +185,7 @@ fn join(pieces: Vec<Text>, words: bool) -> (Readable, SourceMap) {
             continue;
         }
         let (folded, inner) = fold::fold(&text, true);
-        let at = back.span(0..0).start;
+        let start = back.span(0..0).start;
         all.push_str(&folded);
         chars.extend(fold::fold(&text, false).0.chars());
         chars.push('\n');
@@ -196,7 +197,7 @@ fn join(pieces: Vec<Text>, words: bool) -> (Readable, SourceMap) {
             }
         }
         all.push('\n');
-        map.push_whole(1, at..at);
+        map.push_whole(1, start..start);
     }
     (Readable::new(all, &chars), map)
 }

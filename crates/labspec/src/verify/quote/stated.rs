@@ -38,7 +38,7 @@ pub struct Stated {
     /// The paragraph as written, without tags.
     pub paragraph: Arc<str>,
     /// The index of the number in the paragraph.
-    pub at: usize,
+    pub offset: usize,
     /// Whether it is a bound: "above 5 mm".
     pub bound: bool,
     /// Whether it is the answer of a numeric question, which is not rendered.
@@ -74,7 +74,7 @@ pub fn stated(lesson: &Lesson) -> Vec<Stated> {
             context: asked.clone(),
             column: String::new(),
             paragraph: Arc::from(asked),
-            at: 0,
+            offset: 0,
             bound: false,
             answer: true,
         })
@@ -95,7 +95,7 @@ pub fn claimed(lesson: &Lesson) -> Vec<Range<usize>> {
             // A quote that is one number claims the number at its beginning, and not the other end of a range.
             let number = quoted.exprs.len() == 1
                 && quoted.quote.as_str().trim_start().starts_with(|c: char| c.is_ascii_digit());
-            let place = |at: Range<usize>| if number { at.start..at.start + 1 } else { at };
+            let place = |span: Range<usize>| if number { span.start..span.start + 1 } else { span };
             all.extend(rendered.places(quoted.quote.as_str()).into_iter().map(place));
         }
         let cells = verify.table.iter().filter_map(|claim| cells_of_column(claim, rendered).ok());
@@ -126,9 +126,10 @@ impl Counted {
 /// Divides the numbers of a lesson into claimed and unclaimed ones.
 pub fn counted(lesson: &Lesson) -> Counted {
     let places = claimed(lesson);
-    let meets = |s: &Stated| places.iter().any(|at| at.start < s.span.end && s.span.start < at.end);
+    let meets = |s: &Stated| places.iter().any(|span| span.start < s.span.end && s.span.start < span.end);
     let options = options(lesson);
-    let is_option = |s: &Stated| options.iter().any(|at| at.start <= s.span.start && s.span.end <= at.end);
+    let is_option =
+        |s: &Stated| options.iter().any(|span| span.start <= s.span.start && s.span.end <= span.end);
     let is_other = |s: &Stated| s.answer || !meets(s) && (s.bound || is_option(s));
     let (others, counted): (Vec<Stated>, Vec<Stated>) = stated(lesson).into_iter().partition(is_other);
     let (claimed, left) = counted.into_iter().partition(meets);
@@ -159,7 +160,7 @@ fn add_numbers(lesson: &Lesson, text: &Text, all: &mut Vec<Stated>) {
     let paragraph: Arc<str> = Arc::from(text.value.as_str());
     let (folded, map) = fold::fold(&text.value, false);
     let chars: Vec<char> = folded.chars().collect();
-    let bytes: Vec<usize> = folded.char_indices().map(|(at, _)| at).chain([folded.len()]).collect();
+    let bytes: Vec<usize> = folded.char_indices().map(|(offset, _)| offset).chain([folded.len()]).collect();
     let found = separate_quantities(Chars(&chars));
     for q in found.into_iter().rev() {
         let byte = |i: usize| bytes.get(i).copied();
@@ -174,21 +175,21 @@ fn add_numbers(lesson: &Lesson, text: &Text, all: &mut Vec<Stated>) {
             continue;
         }
         let origin = map.span(start..number_end);
-        let at = text.map.span(origin.clone());
-        let cell = MarkdownCell::at(lesson.file.text(), at.start);
+        let span = text.map.span(origin.clone());
+        let cell = MarkdownCell::at(lesson.file.text(), span.start);
         let of_head = || cell.as_ref().and_then(|cell| unit_of_head(&cell.head));
         let Some(unit) = q.unit.filter(Unit::is_own).or_else(of_head) else { continue };
         let Some(dimension) = unit.dimension else { continue };
         all.push(Stated {
             quote: folded.get(start..end).unwrap_or("").to_string(),
-            span: at.start..text.map.span(map.span(start..end)).end,
+            span: span.start..text.map.span(map.span(start..end)).end,
             read: q.quoted,
             unit: unit.text,
             dimension,
             context: cell.as_ref().map_or_else(|| sentence(&folded, start).to_string(), |c| c.row.clone()),
             column: cell.map_or(String::new(), |c| c.head),
             paragraph: paragraph.clone(),
-            at: origin.start,
+            offset: origin.start,
             bound,
             answer: false,
         });
@@ -196,27 +197,28 @@ fn add_numbers(lesson: &Lesson, text: &Text, all: &mut Vec<Stated>) {
 }
 
 /// The sentence around an index: from the last full stop to the next one.
-fn sentence(text: &str, mut at: usize) -> &str {
+fn sentence(text: &str, mut offset: usize) -> &str {
     let ends = |tail: &str| tail.starts_with(". ") || tail.starts_with("; ") || tail.starts_with(".\n");
-    let text = around(text, &mut at);
-    let before = text.get(..at).unwrap_or("");
+    let text = around(text, &mut offset);
+    let before = text.get(..offset).unwrap_or("");
     let start = before.char_indices().rev().find(|(i, _)| ends(before.get(*i..).unwrap_or("")));
     let start = start.map_or(0, |(i, _)| i + 2);
-    let after = text.get(at..).unwrap_or("");
+    let after = text.get(offset..).unwrap_or("");
     let end = after.char_indices().find(|(i, _)| ends(after.get(*i..).unwrap_or("")));
-    text.get(start..end.map_or(text.len(), |(i, _)| at + i)).unwrap_or("")
+    text.get(start..end.map_or(text.len(), |(i, _)| offset + i)).unwrap_or("")
 }
 
 /// The text near an index, which is changed to the index in the returned text.
-fn around<'t>(text: &'t str, at: &mut usize) -> &'t str {
+fn around<'t>(text: &'t str, offset: &mut usize) -> &'t str {
     let edge = |mut i: usize| {
         while !text.is_char_boundary(i) {
             i -= 1;
         }
         i
     };
-    let (from, to) = (edge(at.saturating_sub(MAX_ROW_LENGTH)), edge((*at + MAX_ROW_LENGTH).min(text.len())));
-    *at -= from;
+    let (from, to) =
+        (edge(offset.saturating_sub(MAX_ROW_LENGTH)), edge((*offset + MAX_ROW_LENGTH).min(text.len())));
+    *offset -= from;
     text.get(from..to).unwrap_or("")
 }
 

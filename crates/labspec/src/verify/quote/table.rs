@@ -63,7 +63,7 @@ impl Tables {
     /// Adds a cell: its rendered text, and its range including the spaces around it.
     pub(super) fn cell(&mut self, cell_text: &str, source: &str, place: Range<usize>) {
         let inner = source.trim_matches(|c: char| c.is_whitespace() || c == '|');
-        let start = source.find(inner).map_or(place.start, |at| place.start + at);
+        let start = source.find(inner).map_or(place.start, |offset| place.start + offset);
         self.row.push(TableCell { text: plain(cell_text), span: start..start + inner.len() });
     }
 
@@ -77,7 +77,7 @@ impl Tables {
     /// Adds the tables of printed output: consecutive lines with the same number of columns, and the line of headings before them.
     /// Each line has its start in the file.
     pub(super) fn printed(&mut self, lines: &[(String, usize)]) {
-        let rows: Vec<Vec<TableCell>> = lines.iter().map(|(line, at)| printed_row(line, *at)).collect();
+        let rows: Vec<Vec<TableCell>> = lines.iter().map(|(line, start)| printed_row(line, *start)).collect();
         let mut from = 0;
         while let Some(first) = rows.get(from) {
             let columns = first.len();
@@ -86,8 +86,9 @@ impl Tables {
                 self.begin();
                 let before = from.checked_sub(1).and_then(|i| lines.get(i));
                 let printed = is_heading(first).then(|| first.clone());
-                let headings =
-                    printed.clone().or_else(|| before.and_then(|(line, at)| headings(line, *at, columns)));
+                let headings = printed
+                    .clone()
+                    .or_else(|| before.and_then(|(line, start)| headings(line, *start, columns)));
                 self.row = headings.unwrap_or_default();
                 self.end_head();
                 for row in rows.iter().skip(from).take(count).skip(usize::from(printed.is_some())) {
@@ -110,7 +111,7 @@ impl Tables {
 }
 
 /// The parts of a line with their starts, split where `is_end` holds.
-fn split(line: &str, at: usize, separator: impl Fn(&str) -> Option<usize>) -> Vec<TableCell> {
+fn split(line: &str, line_start: usize, separator: impl Fn(&str) -> Option<usize>) -> Vec<TableCell> {
     let mut cells = Vec::new();
     let (mut start, mut i) = (0, 0);
     let mut push = |from: usize, to: usize| {
@@ -118,7 +119,7 @@ fn split(line: &str, at: usize, separator: impl Fn(&str) -> Option<usize>) -> Ve
         let inner = part.trim();
         let offset = part.find(inner).unwrap_or(0);
         if !inner.is_empty() {
-            let begin = at + from + offset;
+            let begin = line_start + from + offset;
             cells.push(TableCell { text: plain(inner), span: begin..begin + inner.len() });
         }
     };
@@ -137,15 +138,15 @@ fn split(line: &str, at: usize, separator: impl Fn(&str) -> Option<usize>) -> Ve
 }
 
 /// The words of a line.
-fn split_words(line: &str, at: usize) -> Vec<TableCell> {
-    split(line, at, |rest| {
+fn split_words(line: &str, start: usize) -> Vec<TableCell> {
+    split(line, start, |rest| {
         rest.starts_with(char::is_whitespace).then(|| rest.chars().next().map_or(1, char::len_utf8))
     })
 }
 
 /// The parts of a line between wide gaps, tabs and bars.
-fn split_columns(line: &str, at: usize) -> Vec<TableCell> {
-    split(line, at, |rest| {
+fn split_columns(line: &str, start: usize) -> Vec<TableCell> {
+    split(line, start, |rest| {
         let wide = rest.starts_with("  ").then_some(2);
         wide.or_else(|| rest.starts_with(['\t', '|']).then_some(1))
     })
@@ -159,9 +160,9 @@ fn is_number(cell: &TableCell) -> bool {
 }
 
 /// The cells of a printed line: its words if all but the first are numbers, otherwise its parts between wide gaps.
-fn printed_row(line: &str, at: usize) -> Vec<TableCell> {
-    let all = split_words(line, at);
-    if all.len() >= 2 && all.iter().skip(1).all(is_number) { all } else { split_columns(line, at) }
+fn printed_row(line: &str, start: usize) -> Vec<TableCell> {
+    let all = split_words(line, start);
+    if all.len() >= 2 && all.iter().skip(1).all(is_number) { all } else { split_columns(line, start) }
 }
 
 /// Whether a row consists of headings.
@@ -170,8 +171,8 @@ fn is_heading(row: &[TableCell]) -> bool {
 }
 
 /// The headings in the line before a table.
-fn headings(line: &str, at: usize, count: usize) -> Option<Vec<TableCell>> {
-    [split_columns(line, at), split_words(line, at)]
+fn headings(line: &str, start: usize, count: usize) -> Option<Vec<TableCell>> {
+    [split_columns(line, start), split_words(line, start)]
         .into_iter()
         .find(|row| row.len() == count && is_heading(row))
 }
@@ -181,12 +182,12 @@ mod tests {
     use super::*;
 
     fn printed(text: &str) -> Vec<(Vec<String>, Vec<Vec<String>>)> {
-        let mut at = 0;
+        let mut offset = 0;
         let lines: Vec<(String, usize)> = text
             .split_inclusive('\n')
             .map(|line| {
-                at += line.len();
-                (line.trim_end().to_string(), at - line.len())
+                offset += line.len();
+                (line.trim_end().to_string(), offset - line.len())
             })
             .collect();
         let mut tables = Tables::default();

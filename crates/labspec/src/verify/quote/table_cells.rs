@@ -42,8 +42,8 @@ pub(in crate::verify) fn cells_of_column(
             [format!("no table has the columns {}", headings.join(", ")), help]
         });
     };
-    let at = |heading: &str| table.column(heading).unwrap_or(0);
-    let (column, by) = (at(claim.column.as_str()), key.map_or(0, at));
+    let column_of = |heading: &str| table.column(heading).unwrap_or(0);
+    let (column, by) = (column_of(claim.column.as_str()), key.map_or(0, column_of));
     let row_text = claim.row.as_ref().map(|row| table::rendered(row.as_str()));
     let rows = table.rows.iter().filter_map(|row| Some([text(row.get(by)?), text(row.get(column)?)]));
     let cells: Vec<[Text; 2]> =

@@ -176,20 +176,28 @@ fn hemisphere(resolution: usize) -> Raw {
     let centre = vert.len() as i32;
     vert.push([0.0; 3]);
     let first = |ring: usize| if ring == 0 { 0 } else { 1 + 2 * ring * (ring - 1) };
-    let at = |ring: usize, i: usize| (first(ring) + i % (4 * ring).max(1)) as i32;
+    let vertex_at = |ring: usize, i: usize| (first(ring) + i % (4 * ring).max(1)) as i32;
     let mut face = Vec::new();
     for ring in 0..rings {
         for side in 0..4 {
             for i in 0..=ring {
                 let (inner, outer) = (side * ring + i, side * (ring + 1) + i);
-                face.push([at(ring, inner), at(ring + 1, outer), at(ring + 1, outer + 1)]);
+                face.push([
+                    vertex_at(ring, inner),
+                    vertex_at(ring + 1, outer),
+                    vertex_at(ring + 1, outer + 1),
+                ]);
                 if i < ring {
-                    face.push([at(ring, inner), at(ring + 1, outer + 1), at(ring, inner + 1)]);
+                    face.push([
+                        vertex_at(ring, inner),
+                        vertex_at(ring + 1, outer + 1),
+                        vertex_at(ring, inner + 1),
+                    ]);
                 }
             }
         }
     }
-    face.extend((0..4 * rings).map(|i| [at(rings, i), centre, at(rings, i + 1)]));
+    face.extend((0..4 * rings).map(|i| [vertex_at(rings, i), centre, vertex_at(rings, i + 1)]));
     Raw { vert, face, ..Raw::default() }
 }
 
@@ -242,30 +250,30 @@ fn supersphere(res: usize, e: f64, n: f64) -> Raw {
     }
     vert.push([0.0, 0.0, 1.0]);
     let top = vert.len() as i32 - 1;
-    let at = |ring: usize, j: usize| (1 + ring * res + j % res) as i32;
-    let mut face: Vec<[i32; 3]> = listed((0..res).map(|j| [0, at(0, j + 1), at(0, j)]));
+    let vertex_at = |ring: usize, j: usize| (1 + ring * res + j % res) as i32;
+    let mut face: Vec<[i32; 3]> = listed((0..res).map(|j| [0, vertex_at(0, j + 1), vertex_at(0, j)]));
     for i in 0..res - 2 {
         for j in 0..res {
-            face.push([at(i, j), at(i, j + 1), at(i + 1, j)]);
-            face.push([at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)]);
+            face.push([vertex_at(i, j), vertex_at(i, j + 1), vertex_at(i + 1, j)]);
+            face.push([vertex_at(i, j + 1), vertex_at(i + 1, j + 1), vertex_at(i + 1, j)]);
         }
     }
-    face.extend((0..res).map(|j| [at(res - 2, j), at(res - 2, j + 1), top]));
+    face.extend((0..res).map(|j| [vertex_at(res - 2, j), vertex_at(res - 2, j + 1), top]));
     Raw { vert, face, ..Raw::default() }
 }
 
 fn supertorus(res: usize, radius: f64, s: f64, t: f64) -> Raw {
     let step = 2.0 * PI / res as f64;
     let mut raw = Raw::default();
-    let at = |i: usize, j: usize| ((i % res) * res + j % res) as i32;
+    let vertex_at = |i: usize, j: usize| ((i % res) * res + j % res) as i32;
     for i in 0..res {
         let u = i as f64 * step;
         for j in 0..res {
             let v = j as f64 * step;
             let out = 1.0 + radius * cos(v, s);
             raw.vert.push([out * cos(u, t), out * sin(u, t), radius * sin(v, s)]);
-            raw.face.push([at(i, j), at(i + 1, j), at(i, j + 1)]);
-            raw.face.push([at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]);
+            raw.face.push([vertex_at(i, j), vertex_at(i + 1, j), vertex_at(i, j + 1)]);
+            raw.face.push([vertex_at(i + 1, j), vertex_at(i + 1, j + 1), vertex_at(i, j + 1)]);
         }
     }
     raw
@@ -305,11 +313,11 @@ fn plate([columns, rows]: [usize; 2]) -> Raw {
             raw.normal.extend([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
         }
     }
-    let at = |i: usize, j: usize| (i * rows + j) as i32;
+    let vertex_at = |i: usize, j: usize| (i * rows + j) as i32;
     for i in 1..columns {
         for j in 1..rows {
-            raw.face.push([at(i - 1, j - 1), at(i, j - 1), at(i - 1, j)]);
-            raw.face.push([at(i, j), at(i - 1, j), at(i, j - 1)]);
+            raw.face.push([vertex_at(i - 1, j - 1), vertex_at(i, j - 1), vertex_at(i - 1, j)]);
+            raw.face.push([vertex_at(i, j), vertex_at(i - 1, j), vertex_at(i, j - 1)]);
         }
     }
     raw

@@ -105,9 +105,10 @@ mod tests {
     use proptest::prelude::*;
 
     /// A box about a point, as triangles.
-    fn cuboid(half: Vec3, at: Vec3) -> Vec<Triangle> {
-        let corner =
-            |i: usize| std::array::from_fn(|k| at[k] + if i >> k & 1 == 1 { half[k] } else { -half[k] });
+    fn cuboid(half: Vec3, position: Vec3) -> Vec<Triangle> {
+        let corner = |i: usize| {
+            std::array::from_fn(|k| position[k] + if i >> k & 1 == 1 { half[k] } else { -half[k] })
+        };
         let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
         faces.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).map(|t| t.map(corner)).collect()
     }
@@ -117,18 +118,18 @@ mod tests {
         #[test]
         fn boxes_have_the_inertia_of_boxes(
             half in prop::array::uniform3(0.1..2.0),
-            at in prop::array::uniform3(-3.0..3.0),
+            position in prop::array::uniform3(-3.0..3.0),
             apex in prop::array::uniform3(-3.0..3.0),
         ) {
             let [x, y, z] = half.map(|h: f64| h * h / 3.0);
             let volume: f64 = 8.0 * half.iter().product::<f64>();
-            let triangles = || cuboid(half, at).into_iter();
+            let triangles = || cuboid(half, position).into_iter();
             let (found, centre) = volume_and_centre(triangles(), MeshBody::Exact, apex);
             let mass = inertia_about(triangles(), MeshBody::Exact, centre);
             let expected = [y + z, x + z, x + y, 0.0, 0.0, 0.0].map(|m| m * volume);
             prop_assert!((found / volume - 1.0).abs() < 1e-9 && (mass.amount / volume - 1.0).abs() < 1e-12);
             for i in 0..3 {
-                prop_assert!((centre[i] - at[i]).abs() < 1e-9);
+                prop_assert!((centre[i] - position[i]).abs() < 1e-9);
             }
             for i in 0..6 {
                 prop_assert!((mass.inertia[i] - expected[i]).abs() < 1e-9 * volume, "{:?} {:?}", mass.inertia, expected);

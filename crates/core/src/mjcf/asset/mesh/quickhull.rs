@@ -79,7 +79,7 @@ type Point = [i64; 3];
 /// A plane through a grid point. Points above it are outside.
 #[derive(Clone, Copy, Debug)]
 struct HullPlane {
-    at: Point,
+    origin: Point,
     normal: [i128; 3],
     /// The length of the normal, in world units.
     length: f64,
@@ -123,24 +123,30 @@ impl PartialHull {
             begins: vec![NONE; points.len()],
             points: Vec::new(),
         };
-        let at = |i: u32| points.get(i as usize).copied().unwrap_or_default();
-        let (Some(a), Some(b)) = (indices().min_by_key(|&i| at(i)), indices().max_by_key(|&i| at(i))) else {
+        let point_at = |i: u32| points.get(i as usize).copied().unwrap_or_default();
+        let (Some(a), Some(b)) =
+            (indices().min_by_key(|&i| point_at(i)), indices().max_by_key(|&i| point_at(i)))
+        else {
             return Err(Flat::Point);
         };
-        if at(a) == at(b) {
+        if point_at(a) == point_at(b) {
             return Err(Flat::Point);
         }
-        let off_line =
-            |i: u32| normal(at(a), at(b), at(i)).iter().map(|&x| (x as f64) * (x as f64)).sum::<f64>();
+        let off_line = |i: u32| {
+            normal(point_at(a), point_at(b), point_at(i))
+                .iter()
+                .map(|&x| (x as f64) * (x as f64))
+                .sum::<f64>()
+        };
         let farthest = indices().map(|i| (off_line(i).to_bits(), std::cmp::Reverse(i))).max();
         let Some(c) = farthest.filter(|&(d, _)| d > 0).map(|(_, i)| i.0) else { return Err(Flat::Line) };
-        let base = g.plane_of([at(a), at(b), at(c)]);
-        let off_plane = |i: u32| (base.height(at(i)).unsigned_abs(), std::cmp::Reverse(i));
+        let base = g.plane_of([point_at(a), point_at(b), point_at(c)]);
+        let off_plane = |i: u32| (base.height(point_at(i)).unsigned_abs(), std::cmp::Reverse(i));
         let Some(d) = indices().map(off_plane).max().filter(|x| x.0 > 0).map(|x| x.1.0) else {
             return Err(Flat::Plane);
         };
         // The outer side of the base is opposite to the fourth corner.
-        let (b, c) = if base.height(at(d)) > 0 { (c, b) } else { (b, c) };
+        let (b, c) = if base.height(point_at(d)) > 0 { (c, b) } else { (b, c) };
         g.points = points;
         // Each face with its adjacent faces.
         let sides =
@@ -163,7 +169,7 @@ impl PartialHull {
     fn plane_of(&self, [a, b, c]: [Point; 3]) -> HullPlane {
         let normal = normal(a, b, c);
         let length = (0..3).map(|i| normal[i] as f64 * self.steps[i]).map(|x| x * x).sum::<f64>();
-        HullPlane { at: a, normal, length: libm::sqrt(length) }
+        HullPlane { origin: a, normal, length: libm::sqrt(length) }
     }
 
     fn add(&mut self, corner: [u32; 3], beyond: [u32; 3]) {
@@ -175,10 +181,10 @@ impl PartialHull {
     fn assign_to_faces(&mut self, points: Vec<u32>, first: usize) {
         let mut highest: Vec<i128> = vec![0; self.faces.len() - first];
         for p in points {
-            let at = self.point(p);
+            let position = self.point(p);
             for (face, highest) in self.faces.iter_mut().skip(first).zip(&mut highest) {
                 self.tests += 1;
-                let height = face.plane.height(at);
+                let height = face.plane.height(position);
                 if height > 0 {
                     face.above.push(p);
                     if height > *highest {
@@ -244,7 +250,7 @@ impl PartialHull {
 
     /// Replaces the faces that are visible from a point by a cone from their border to the point.
     fn replace_visible_faces(&mut self, start: u32, apex: u32) {
-        let at = self.point(apex);
+        let position = self.point(apex);
         let mut border: Vec<(u32, u32, u32)> = Vec::new();
         let mut orphans = Vec::new();
         let mut stack = vec![start];
@@ -260,7 +266,7 @@ impl PartialHull {
                     continue;
                 };
                 self.tests += 1;
-                if other.plane.height(at) > 0 {
+                if other.plane.height(position) > 0 {
                     other.is_on_hull = false;
                     stack.push(beyond[k]);
                 }
@@ -338,15 +344,15 @@ impl PartialHull {
             let corners = || borders.range((side, 0)..=(side, NONE)).map(|(&(_, v), _)| v);
             let Some(first) = corners().find(|&v| is_corner(v)) else { continue };
             let mut last = None;
-            let mut at = first;
+            let mut current = first;
             for _ in 0..corners().count() {
-                at = borders.get(&(side, at)).copied().unwrap_or(first);
-                if at == first {
+                current = borders.get(&(side, current)).copied().unwrap_or(first);
+                if current == first {
                     break;
                 }
-                if is_corner(at) {
-                    face.extend(last.map(|last: u32| [first as i32, last as i32, at as i32]));
-                    last = Some(at);
+                if is_corner(current) {
+                    face.extend(last.map(|last: u32| [first as i32, last as i32, current as i32]));
+                    last = Some(current);
                 }
             }
         }
@@ -359,7 +365,7 @@ impl PartialHull {
 impl HullPlane {
     /// The height of a point above the plane, multiplied by the length of the normal, in grid units.
     fn height(&self, p: Point) -> i128 {
-        (0..3).map(|i| self.normal[i] * i128::from(p[i] - self.at[i])).sum()
+        (0..3).map(|i| self.normal[i] * i128::from(p[i] - self.origin[i])).sum()
     }
 }
 

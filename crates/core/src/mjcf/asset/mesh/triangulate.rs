@@ -38,11 +38,11 @@ fn flattened(corners: &[Vec3]) -> Vec<[f64; 2]> {
 fn cut_ears(corners: &[[f64; 2]]) -> Vec<[usize; 3]> {
     let mut rest: Vec<usize> = listed(0..corners.len());
     let mut found = Vec::with_capacity(rest.len());
-    let (mut at, mut misses) = (0, 0);
+    let (mut ear, mut misses) = (0, 0);
     while rest.len() > 3 && misses <= rest.len() {
         let n = rest.len();
-        at %= n;
-        let three = [0, 1, 2].map(|k| rest[(at + k) % n]);
+        ear %= n;
+        let three = [0, 1, 2].map(|k| rest[(ear + k) % n]);
         let [a, b, c] = three.map(|i| corners[i]);
         let turn = (b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0]);
         // The orientation of the polygon is estimated from the area between this side and the origin. The estimate is wrong for
@@ -50,12 +50,12 @@ fn cut_ears(corners: &[[f64; 2]]) -> Vec<[usize; 3]> {
         let sense = a[0] * b[1] - a[1] * b[0];
         let holds = |&i: &usize| !three.contains(&i) && inside([a, b, c], corners[i]);
         if turn * sense < 0.0 || rest.iter().any(holds) {
-            at += 1;
+            ear += 1;
             misses += 1;
             continue;
         }
         found.push(three);
-        rest.remove((at + 1) % n);
+        rest.remove((ear + 1) % n);
         misses = 0;
     }
     if let [a, b, c] = rest[..] {

@@ -49,8 +49,8 @@ proptest! {
         let m = compile(&text(&bodies)).unwrap();
         let Workspace { fields: mut d, scratch: mut s } = Workspace::new(&m);
         for j in (0..m.njnt).filter(|&j| m.jnt_type[j] != joint::FREE) {
-            let at = m.jnt_qposadr[j] as usize;
-            d.qpos[at] += q[at % q.len()];
+            let address = m.jnt_qposadr[j] as usize;
+            d.qpos[address] += q[address % q.len()];
         }
         for (v, x) in d.qvel.iter_mut().zip(q.iter().rev()) {
             *v = *x;
@@ -58,8 +58,8 @@ proptest! {
         forward(&m, &mut d, &mut s);
         let (mut ld, mut inv) = (d.M.clone(), vec![0.0; m.nv]);
         prop_assert_eq!(mass::factor(&m, &mut ld, &mut inv, 0..m.nv), None);
-        for (ours, rows) in d.qLD.iter().zip(&ld) {
-            prop_assert!((ours - rows).abs() < 1e-10 * (1.0 + rows.abs()), "{ours} {rows}");
+        for (computed, rows) in d.qLD.iter().zip(&ld) {
+            prop_assert!((computed - rows).abs() < 1e-10 * (1.0 + rows.abs()), "{computed} {rows}");
         }
 
         // Reverse check: multiplying the computed acceleration by the matrix gives the force.

@@ -96,7 +96,7 @@ struct ChainLink {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct LinkParameters {
     /// Pose of its frame in that of its parent, in the default configuration.
-    pub(super) at: Vec3,
+    pub(super) position: Vec3,
     pub(super) turn: Mat3,
     /// Whether `turn` is the identity.
     straight: bool,
@@ -144,7 +144,7 @@ struct LinkBody {
     link: Option<usize>,
     /// The index in `parts` of its parent, `None` for the world.
     parent: Option<usize>,
-    at: Vec3,
+    position: Vec3,
     turn: Mat3,
 }
 
@@ -215,31 +215,32 @@ impl Trees {
         let mut next = 0;
         for p in 0..self.parts.len() {
             let b = self.parts[p].body;
-            let (mut at, mut turn) = (pos[b], quat_to_mat(quat[b]));
+            let (mut position, mut turn) = (pos[b], quat_to_mat(quat[b]));
             if let Some(parent) = self.parts[p].parent {
                 let frame = &self.parts[parent];
-                (at, turn) = (add(mat_mul_vec(&frame.turn, at), frame.at), mat_mul(&frame.turn, &turn));
+                (position, turn) =
+                    (add(mat_mul_vec(&frame.turn, position), frame.position), mat_mul(&frame.turn, &turn));
             }
             for _ in 0..m.body_jntnum[b] {
                 let link = &mut self.links[next];
                 let j = link.joint;
                 let f = &mut link.fixed;
-                f.at = add(mat_mul_vec(&turn, anchor[j]), at);
+                f.position = add(mat_mul_vec(&turn, anchor[j]), position);
                 (f.turn, f.straight) = (turn, turn == EYE);
                 f.axis = axis[j];
                 f.reference = m.qpos0[link.coordinate];
                 f.armature = mass::armature(m, link.dof);
                 (f.mass, f.com, f.inertia) = (0.0, [0.0; 3], [0.0; 6]);
                 // The following joints and bodies are given in the frame of this link.
-                (at, turn) = (scale(anchor[j], -1.0), EYE);
+                (position, turn) = (scale(anchor[j], -1.0), EYE);
                 next += 1;
             }
-            (self.parts[p].at, self.parts[p].turn) = (at, turn);
+            (self.parts[p].position, self.parts[p].turn) = (position, turn);
         }
 
         let (ipos, iquat) = (rows::<3>(&m.body_ipos), rows::<4>(&m.body_iquat));
         let moments = rows::<3>(&m.body_inertia);
-        let com = |part: &LinkBody| add(mat_mul_vec(&part.turn, ipos[part.body]), part.at);
+        let com = |part: &LinkBody| add(mat_mul_vec(&part.turn, ipos[part.body]), part.position);
         for part in &self.parts {
             let Some(link) = part.link else { continue };
             let (f, mass) = (&mut self.links[link].fixed, m.body_mass[part.body]);

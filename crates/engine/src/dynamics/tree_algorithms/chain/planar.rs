@@ -13,7 +13,7 @@ type Vec2 = [f64; 2];
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct PlanarLinkParameters {
     /// Vector from the anchor of the previous link to its anchor.
-    at: Vec2,
+    offset: Vec2,
     /// Direction of a slide.
     axis: Vec2,
     /// Sign of a hinge axis relative to the normal of the plane; 0 for a slide.
@@ -71,7 +71,7 @@ pub(super) fn load(chain: &mut [ChainLink]) {
         let n = [dot(normal, column(turn, 0)), dot(normal, column(turn, 1)), dot(normal, column(turn, 2))];
         link.planar = planar;
         link.flat = PlanarLinkParameters {
-            at: flat(mat_mul_vec(&above, link.fixed.at)),
+            offset: flat(mat_mul_vec(&above, link.fixed.position)),
             axis: flat(*axis),
             sense: if link.slides { 0.0 } else { dot(*axis, normal).round() },
             com: flat(mat_mul_vec(turn, link.fixed.com)),
@@ -134,8 +134,8 @@ pub(super) fn mass_matrix<const N: usize>(chain: &mut [ChainLink], qpos: &[f64],
     for i in 0..n {
         let ChainLink { flat, fixed, swing, coordinate, .. } = &mut chain[i];
         let displacement = qpos[*coordinate] - fixed.reference;
-        let at = if i == 0 { flat.at } else { up.rotated(flat.at) };
-        let mut here = Swing { anchor: [up.anchor[0] + at[0], up.anchor[1] + at[1]], ..up };
+        let offset = if i == 0 { flat.offset } else { up.rotated(flat.offset) };
+        let mut here = Swing { anchor: [up.anchor[0] + offset[0], up.anchor[1] + offset[1]], ..up };
         if flat.sense == 0.0 {
             here.axis = if i == 0 { flat.axis } else { up.rotated(flat.axis) };
             here.anchor[0] += here.axis[0] * displacement;

@@ -61,9 +61,9 @@ impl ChainLink {
     fn forward_kinematics(&self, parent: Option<&LinkPose>, displacement: (f64, f64)) -> LinkPose {
         let f = &self.fixed;
         let (mut anchor, mut axes) = match parent {
-            None => (f.at, f.turn),
+            None => (f.position, f.turn),
             Some(p) => (
-                add(mat_mul_vec(&p.axes, f.at), p.anchor),
+                add(mat_mul_vec(&p.axes, f.position), p.anchor),
                 if f.straight { p.axes } else { mat_mul(&p.axes, &f.turn) },
             ),
         };

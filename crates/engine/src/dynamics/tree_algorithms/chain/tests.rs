@@ -83,10 +83,10 @@ proptest! {
         let all = 0..m.nv;
         mass::composite_inertia(&m, &mut d, &mut s.dynamics.path, std::slice::from_ref(&all));
         rne::newton_euler(&m, &mut d, &mut s.dynamics, m.opt.gravity);
-        for (ours, reference) in [(mass_matrix, &d.M), (bias, &d.qfrc_bias)] {
+        for (computed, reference) in [(mass_matrix, &d.M), (bias, &d.qfrc_bias)] {
             let size = reference.iter().fold(1.0_f64, |s, x| s.max(x.abs()));
-            for (a, b) in ours.iter().zip(reference) {
-                prop_assert!((a - b).abs() < 1e-13 * size, "{ours:?}\n{reference:?}\n{}", text(&links));
+            for (a, b) in computed.iter().zip(reference) {
+                prop_assert!((a - b).abs() < 1e-13 * size, "{computed:?}\n{reference:?}\n{}", text(&links));
             }
         }
     }

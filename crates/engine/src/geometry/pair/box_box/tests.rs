@@ -135,19 +135,19 @@ fn gaps_agree_with_clipping_and_contacts_lie_on_both_boxes() {
         assert!(out.is_empty() || gap <= margin + tolerance, "case {case}");
         assert!(!out.is_empty() || gap >= -tolerance, "case {case}: nothing found at {gap:e}");
         for touch in &out {
-            let at = || format!("case {case}: {touch:?}, {first:?} {second:?}");
-            assert!((norm(touch.normal) - 1.0).abs() < 1e-12, "{}", at());
-            assert!(touch.dist >= gap - tolerance && touch.dist <= margin + tolerance, "{}", at());
+            let describe = || format!("case {case}: {touch:?}, {first:?} {second:?}");
+            assert!((norm(touch.normal) - 1.0).abs() < 1e-12, "{}", describe());
+            assert!(touch.dist >= gap - tolerance && touch.dist <= margin + tolerance, "{}", describe());
             let half = scale(touch.normal, 0.5 * touch.dist);
             if of_edges {
-                assert!((touch.dist - gap).abs() < tolerance, "{}", at());
+                assert!((touch.dist - gap).abs() < tolerance, "{}", describe());
                 if touch.dist > 0.0 {
                     continue; // The nearest points may be ends of edges, which are not opposite each other along the normal.
                 }
             }
             // The two surface points lie opposite each other along the normal.
-            assert!(holds(&first, sub(touch.pos, half), tolerance), "{}", at());
-            assert!(holds(&second, add(touch.pos, half), tolerance), "{}", at());
+            assert!(holds(&first, sub(touch.pos, half), tolerance), "{}", describe());
+            assert!(holds(&second, add(touch.pos, half), tolerance), "{}", describe());
         }
     }
     println!("{overlapping} overlap, {touching} touch");
@@ -208,14 +208,14 @@ fn depth_is_that_of_the_hull_of_differences() {
         let gap = axis.map_or(face_gap, |axis| axis.gap);
         let tolerance = 1e-9 * extent(&first, &second);
         let residual = -depth - gap;
-        let at = || format!("case {case}: depth {depth:e}, gap {gap:e}, {first:?} {second:?}");
-        assert!(residual <= tolerance, "{}", at());
+        let describe = || format!("case {case}: depth {depth:e}, gap {gap:e}, {first:?} {second:?}");
+        assert!(residual <= tolerance, "{}", describe());
         if depth < -tolerance {
             // For separate boxes, the gap along an axis that belongs to no facet may be larger than all gaps along
             // facet normals.
-            assert!(gap > 0.0, "{}", at());
+            assert!(gap > 0.0, "{}", describe());
         } else {
-            assert!(residual >= -tolerance, "{}", at());
+            assert!(residual >= -tolerance, "{}", describe());
             compared += 1;
             edges += usize::from(axis.is_some());
         }

@@ -69,11 +69,13 @@ fn least_distance(capsule: &Shape, cuboid: &Shape) -> f64 {
         norm(beyond)
     };
     const SAMPLES: i32 = 32;
-    let at = |k: i32| f64::from(2 * k) / f64::from(SAMPLES) - 1.0;
-    let best = (0..=SAMPLES).min_by(|&a, &b| distance(at(a)).total_cmp(&distance(at(b)))).unwrap_or(0);
-    let (mut a, mut b) = (at((best - 1).max(0)), at((best + 1).min(SAMPLES)));
+    let parameter_at = |k: i32| f64::from(2 * k) / f64::from(SAMPLES) - 1.0;
+    let best = (0..=SAMPLES)
+        .min_by(|&a, &b| distance(parameter_at(a)).total_cmp(&distance(parameter_at(b))))
+        .unwrap_or(0);
+    let (mut a, mut b) = (parameter_at((best - 1).max(0)), parameter_at((best + 1).min(SAMPLES)));
     let golden = 0.5 * (5f64.sqrt() - 1.0);
-    let mut least = distance(at(best));
+    let mut least = distance(parameter_at(best));
     for _ in 0..80 {
         let (c, d) = (b - golden * (b - a), a + golden * (b - a));
         let (x, y) = (distance(c), distance(d));

@@ -13,7 +13,7 @@ use std::collections::BTreeSet;
 /// # Errors
 /// The first deviation from the written form.
 pub(in crate::check::snapshot) fn read(file: &SourceFile) -> Result<Vec<StoredLab>, SnapshotFault> {
-    let mut reader = SnapshotReader { lines: file.text().lines().collect(), at: 0 };
+    let mut reader = SnapshotReader { lines: file.text().lines().collect(), next_line: 0 };
     reader.head()?;
     let mut labs: Vec<StoredLab> = Vec::new();
     let mut addresses = BTreeSet::new();
@@ -22,13 +22,13 @@ pub(in crate::check::snapshot) fn read(file: &SourceFile) -> Result<Vec<StoredLa
             return Err(reader.fault(0, "the file is incomplete: the line `end of … labs` is missing"));
         };
         if let Some(rest) = line.strip_prefix("lab ") {
-            let start = reader.at - 1;
+            let start = reader.next_line - 1;
             let [address, _] = reader.names(rest, 4)?;
             if !addresses.insert(address.clone()) {
                 return Err(reader.fault(4, &format!("the lab {address} appears a second time")));
             }
             let runs = reader.runs()?;
-            let lines = reader.lines.get(start..reader.at).unwrap_or_default();
+            let lines = reader.lines.get(start..reader.next_line).unwrap_or_default();
             let text = lines.iter().filter(|l| !is_empty(l)).map(|l| format!("{l}\n")).collect();
             labs.push(StoredLab { address, runs, text });
         } else if let Some(rest) = line.strip_prefix("end of ") {
@@ -53,17 +53,17 @@ fn is_empty(line: &str) -> bool {
 struct SnapshotReader<'t> {
     lines: Vec<&'t str>,
     /// The index of the next line.
-    at: usize,
+    next_line: usize,
 }
 
 impl<'t> SnapshotReader<'t> {
     /// An error in the line that was read last, after `before` characters.
     fn fault(&self, before: usize, message: &str) -> SnapshotFault {
-        SnapshotFault { line: self.at.max(1), column: before + 1, message: message.to_string() }
+        SnapshotFault { line: self.next_line.max(1), column: before + 1, message: message.to_string() }
     }
 
     fn head(&mut self) -> Result<(), SnapshotFault> {
-        self.at = 1;
+        self.next_line = 1;
         match self.lines.first() {
             Some(line) if *line == FIRST_LINE => Ok(()),
             Some(line) if line.starts_with("labspec snapshot ") => Err(self.fault(
@@ -79,22 +79,22 @@ impl<'t> SnapshotReader<'t> {
 
     /// The next line that is not empty.
     fn next(&mut self) -> Option<&'t str> {
-        while let Some(line) = self.lines.get(self.at) {
-            self.at += 1;
+        while let Some(line) = self.lines.get(self.next_line) {
+            self.next_line += 1;
             if !is_empty(line) {
                 return Some(line);
             }
         }
-        self.at = self.lines.len();
+        self.next_line = self.lines.len();
         None
     }
 
     /// The rest of the next line after `start`, if it begins with it.
     fn next_with(&mut self, start: &str) -> Option<&'t str> {
-        let before = self.at;
+        let before = self.next_line;
         let rest = self.next().and_then(|line| line.strip_prefix(start));
         if rest.is_none() {
-            self.at = before;
+            self.next_line = before;
         }
         rest
     }
@@ -165,9 +165,9 @@ impl<'t> SnapshotReader<'t> {
             if times.first().is_none_or(|(_, word)| word != "time") || times.len() < 2 {
                 return Err(self.fault(0, "the times of a run must follow here, after the word `time`"));
             }
-            let time = |(at, word): &(usize, String)| {
+            let time = |(column, word): &(usize, String)| {
                 let t = word.parse::<f64>().ok().filter(|t| t.is_finite());
-                t.ok_or_else(|| self.fault(*at, &format!("`{}` is not a time", shortened(word))))
+                t.ok_or_else(|| self.fault(*column, &format!("`{}` is not a time", shortened(word))))
             };
             let times: Vec<f64> = times.iter().skip(1).map(time).collect::<Result<_, _>>()?;
             let mut rows = Vec::new();
@@ -190,13 +190,13 @@ impl<'t> SnapshotReader<'t> {
             let end = line.chars().count() + 2;
             return Err(self.fault(end, &format!("there are {} values for {columns} times", words.len())));
         }
-        for (at, word) in &words {
+        for (column, word) in &words {
             let fixed = [NO_CERTAIN_DIGIT, NO_VALUE, "true", "false", "nan", "inf", "-inf"];
             if !fixed.contains(&word.as_str()) && !word.starts_with('"') && digits::read(word).is_none() {
-                return Err(self.fault(*at, &format!("`{}` is not a value", shortened(word))));
+                return Err(self.fault(*column, &format!("`{}` is not a value", shortened(word))));
             }
         }
-        Ok(StoredRow { name, cells: words.into_iter().map(|(_, w)| w).collect(), line: self.at })
+        Ok(StoredRow { name, cells: words.into_iter().map(|(_, w)| w).collect(), line: self.next_line })
     }
 }
 

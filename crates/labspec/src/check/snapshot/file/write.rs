@@ -65,7 +65,7 @@ fn row(cells: &[Cell], others: &[&Vec<Cell>]) -> Vec<String> {
             if same { text } else { NO_CERTAIN_DIGIT.into() }
         }
         Some(x) => {
-            let at = |unit: i32| {
+            let written_in = |unit: i32| {
                 let text = digits::written(x, unit);
                 let same = |o: &&Vec<Cell>| {
                     o.get(i)
@@ -74,7 +74,7 @@ fn row(cells: &[Cell], others: &[&Vec<Cell>]) -> Vec<String> {
                 };
                 others.iter().all(same).then_some(text)
             };
-            (finest..=coarsest).find_map(at).unwrap_or_else(|| NO_CERTAIN_DIGIT.into())
+            (finest..=coarsest).find_map(written_in).unwrap_or_else(|| NO_CERTAIN_DIGIT.into())
         }
     };
     cells.iter().enumerate().map(one).collect()
