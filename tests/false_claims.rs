@@ -15,7 +15,7 @@ mod snapshots;
 mod spaces;
 mod values;
 
-use crate::needs::takes_all;
+use crate::population::takes_all;
 use crate::support::for_each;
 use crate::support::random::Random;
 use conditions::MeasuredNumber;

@@ -7,7 +7,7 @@
 // A test that cannot read its own inputs must fail.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
-use crate::needs::takes_all;
+use crate::population::takes_all;
 use crate::rules::report_of;
 use crate::support::{for_each, workspace};
 use labspec::rules::{self, Rule, example};

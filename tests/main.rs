@@ -58,6 +58,7 @@ mod plan;
 mod planned;
 mod playback;
 mod player;
+mod population;
 mod precision;
 mod precision_truth;
 mod preview;

@@ -13,7 +13,8 @@ mod quizzes;
 mod reasons;
 mod student_view;
 
-use crate::needs::{needs, sample, takes_all};
+use crate::needs::needs;
+use crate::population::{sample, takes_all};
 use crate::support::{for_each, workspace};
 use claims::{Case, Needs};
 use labspec::bind::scene::Models;

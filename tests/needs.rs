@@ -2,9 +2,6 @@
 //!
 //! Without its prerequisite, a test checks nothing, passes, and prints this past the output capture of `cargo test`, with the
 //! number of such tests so far; `zz.rs` prints the total. With `LABSPEC_REQUIRE=all`, as in `.ci/run`, it fails.
-//!
-//! Tests of large populations (thousands of random settings, all planted mistakes) take a sample, unless
-//! `LABSPEC_REQUIRE=all` is set.
 
 #![allow(clippy::unwrap_used)]
 
@@ -33,26 +30,8 @@ pub(crate) fn needs(what: &str) -> bool {
 }
 
 /// Whether nothing may be left out.
-fn requires_all() -> bool {
+pub(crate) fn requires_all() -> bool {
     std::env::var_os("LABSPEC_REQUIRE").is_some_and(|value| value == "all")
-}
-
-/// Whether tests take all cases of their populations: nothing may be left out, or pages are written that count all of them.
-pub(crate) fn takes_all() -> bool {
-    requires_all() || std::env::var_os("LABSPEC_BLESS").is_some()
-}
-
-/// The cases of a population that a test takes: all of them, or one of `step`.
-pub(crate) fn sample<T>(population: Vec<T>, step: usize) -> Vec<T> {
-    if takes_all() {
-        return population;
-    }
-    population.into_iter().step_by(step).collect()
-}
-
-/// The minimum number of results of a population that a sample by [`sample`] must have: half of its share.
-pub(crate) fn minimum(count: usize, step: usize) -> usize {
-    if takes_all() { count } else { count / (2 * step) }
 }
 
 fn is_available(what: &str) -> bool {

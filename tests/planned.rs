@@ -4,7 +4,8 @@
 
 #![allow(clippy::unwrap_used)]
 
-use crate::needs::{minimum, needs, sample};
+use crate::needs::needs;
+use crate::population::{minimum, sample};
 use crate::support::{compile, for_each, models, workspace};
 use labspec::bind::{Functions, ModelNames, Scope, World, include};
 use labspec_core::reflect::{self, FieldSet, Object};

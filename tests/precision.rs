@@ -3,7 +3,8 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
-use crate::needs::{minimum, needs, sample};
+use crate::needs::needs;
+use crate::population::{minimum, sample};
 use crate::support::workspace;
 use labspec::bind::Programs;
 use labspec::bind::scene::Models;

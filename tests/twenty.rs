@@ -3,7 +3,8 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
-use crate::needs::{minimum, needs, sample};
+use crate::needs::needs;
+use crate::population::{minimum, sample};
 use crate::program::run_in;
 use crate::support::{compile, for_each, read_json, workspace};
 use labspec::bind::Programs;

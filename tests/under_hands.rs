@@ -4,7 +4,8 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
-use crate::needs::{minimum, needs, sample, takes_all};
+use crate::needs::needs;
+use crate::population::{minimum, sample, takes_all};
 use crate::program::run_in;
 use crate::support::{recording, workspace};
 use serde_json::Value as Json;

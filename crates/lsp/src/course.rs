@@ -61,23 +61,14 @@ impl CourseFiles {
         self.lessons.append(&mut before);
     }
 
-    /// The findings of the course of a document, by the path of their file.
-    fn findings(
-        &mut self,
-        document: &OpenDocument,
-        open: &BTreeMap<String, OpenDocument>,
-        folders: &[WorkspaceRoot],
-    ) -> Vec<Finding> {
-        let path = &document.content.path;
-        let Some(root) = folders.iter().map(|folder| &folder.real).find(|root| path.starts_with(root)) else {
-            return document.content.lesson.as_deref().map_or(Vec::new(), |lesson| check_course(&[lesson]));
-        };
+    /// The findings of the course of a folder: its files, and the open documents in place of theirs.
+    fn findings_below(&mut self, root: &Path, open: &BTreeMap<String, OpenDocument>) -> Vec<Finding> {
         self.read_below(root, open);
         let files = self.lessons.iter().filter(|(path, _)| Path::new(path).starts_with(root));
         let mut lessons: BTreeMap<&str, &Lesson> =
             files.map(|(path, lesson)| (path.as_str(), &**lesson)).collect();
-        for other in open.values().filter(|other| other.content.path.starts_with(root)) {
-            if let Some(lesson) = other.content.lesson.as_deref() {
+        for document in open.values().filter(|document| document.content.path.starts_with(root)) {
+            if let Some(lesson) = document.content.lesson.as_deref() {
                 lessons.insert(lesson.file.path(), lesson);
             }
         }
@@ -93,10 +84,19 @@ pub(super) fn update(
     policy: &mut dyn FnMut(&Path, &mut Vec<Finding>),
 ) -> Vec<String> {
     let mut changed = Vec::new();
+    // Several documents of a folder share its findings.
+    let mut by_folder: BTreeMap<&Path, Vec<Finding>> = BTreeMap::new();
     for (uri, document) in &*documents {
         let path = document.content.file.path();
-        let mut found = files.findings(document, documents, folders);
-        found.retain(|finding| finding.path == *path);
+        let mut roots = folders.iter().map(|folder| folder.real.as_path());
+        let mut found: Vec<Finding> = match roots.find(|root| document.content.path.starts_with(root)) {
+            Some(root) => {
+                let all = by_folder.entry(root).or_insert_with(|| files.findings_below(root, documents));
+                all.iter().filter(|finding| finding.path == *path).cloned().collect()
+            }
+            // A course of its own.
+            None => document.content.lesson.as_deref().map_or(Vec::new(), |lesson| check_course(&[lesson])),
+        };
         policy(&document.content.path, &mut found);
         if found != document.content.of_course {
             changed.push((uri.clone(), found));
