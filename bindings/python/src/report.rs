@@ -18,8 +18,8 @@ pub(crate) fn finding_dict<'py>(py: Python<'py>, f: &Finding) -> PyResult<Bound<
     dict.set_item("why", f.why.as_deref())?;
     dict.set_item("help", f.help.as_deref())?;
     dict.set_item("file", &*f.path)?;
-    dict.set_item("line", f.position.map(|at| at.line))?;
-    dict.set_item("column", f.position.map(|at| at.column))?;
+    dict.set_item("line", f.position.map(|position| position.line))?;
+    dict.set_item("column", f.position.map(|position| position.column))?;
     dict.set_item("start", f.span.start)?;
     dict.set_item("end", f.span.end)?;
     dict.set_item("owner", f.claim.as_ref().map(|claim| claim.owner.as_str()))?;

@@ -106,7 +106,7 @@ pub(crate) fn lab_json(path: &str, text: &str, address: &str) -> PyResult<String
     let found = lesson
         .addressed()
         .into_iter()
-        .find(|(at, _)| format!("#{}", at.to_string().trim_start_matches('#')) == address);
+        .find(|(lab_address, _)| format!("#{}", lab_address.to_string().trim_start_matches('#')) == address);
     let (_, lab) = found.ok_or_else(|| error("unknown-lab", &format!("{path} has no lab {address}"), &[]))?;
     Ok(lesson.file.slice(lab.span.clone()).to_string())
 }

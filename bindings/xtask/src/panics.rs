@@ -59,7 +59,7 @@ impl<'i> Visitor<'i> for LastConstants<'_> {
     fn visit_instr(&mut self, instr: &'i Instr, _: &'i InstrLocId) {
         match instr {
             Instr::Call(call) if self.stopping.contains(&call.func) => {
-                self.found.extend(self.before.and_then(|at| usize::try_from(at).ok()));
+                self.found.extend(self.before.and_then(|value| usize::try_from(value).ok()));
                 self.before = None;
             }
             Instr::Const(Const { value: Value::I32(x) }) => self.before = Some(*x),
@@ -77,14 +77,14 @@ fn segment(module: &Module, address: usize, length: usize) -> Option<(DataId, us
         let DataKind::Active { offset: ConstExpr::Value(Value::I32(start)), .. } = data.kind else {
             return None;
         };
-        let at = address.checked_sub(usize::try_from(start).ok()?)?;
-        (at.checked_add(length)? <= data.value.len()).then(|| (data.id(), at))
+        let start_in_data = address.checked_sub(usize::try_from(start).ok()?)?;
+        (start_in_data.checked_add(length)? <= data.value.len()).then(|| (data.id(), start_in_data))
     })
 }
 
 fn bytes(module: &Module, address: usize, length: usize) -> Option<&[u8]> {
-    let (id, at) = segment(module, address, length)?;
-    module.data.get(id).value.get(at..at + length)
+    let (id, offset) = segment(module, address, length)?;
+    module.data.get(id).value.get(offset..offset + length)
 }
 
 /// Whether the bytes at an address are the source location of a Rust file.
@@ -103,9 +103,12 @@ fn clear_places(module: &mut Module, stopping: &HashSet<FunctionId>) {
     for (_, local) in module.funcs.iter_local() {
         dfs_in_order(&mut constants, local, local.entry_block());
     }
-    let places: Vec<usize> = constants.found.into_iter().filter(|at| is_place(module, *at)).collect();
-    for (id, at) in places.iter().filter_map(|at| segment(module, *at, PLACE)).collect::<Vec<_>>() {
-        module.data.get_mut(id).value[at..at + PLACE].fill(0);
+    let places: Vec<usize> =
+        constants.found.into_iter().filter(|address| is_place(module, *address)).collect();
+    for (id, offset) in
+        places.iter().filter_map(|address| segment(module, *address, PLACE)).collect::<Vec<_>>()
+    {
+        module.data.get_mut(id).value[offset..offset + PLACE].fill(0);
     }
 }
 
