@@ -7,6 +7,7 @@ use crate::support::schema::schemas;
 use crate::support::workspace;
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
+use std::path::Path;
 
 /// All keys of a schema have one style and a description, and each schema is for one report.
 #[test]
@@ -43,6 +44,24 @@ fn schemas_describe_every_key() {
     let mut keys = BTreeSet::new();
     all.iter().for_each(|(file, schema)| check_properties(file, schema, &mut keys));
     assert!(keys.len() > 80, "{}", keys.len());
+}
+
+/// The schemas are those that the command derives from the types of the reports.
+#[test]
+fn the_schemas_are_up_to_date() {
+    let folder = tempfile::tempdir().unwrap();
+    let done = run_in(folder.path(), &["reference", "reference"]);
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let written: Vec<String> = (std::fs::read_dir(folder.path().join("schema")).unwrap())
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    let of_reports = written.iter().filter(|name| name.starts_with("report-")).count();
+    assert_eq!(of_reports, schemas().len());
+    for name in written {
+        let read = |at: &Path| std::fs::read_to_string(at.join("schema").join(&name)).unwrap_or_default();
+        let is_same = read(folder.path()) == read(&workspace().join("docs"));
+        assert!(is_same, "docs/schema/{name} is stale: cargo run -p labspec-cli -- reference docs/reference");
+    }
 }
 
 /// The schemas can be violated: each of these reports is refused.

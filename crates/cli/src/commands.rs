@@ -7,8 +7,8 @@ use super::output::write_file;
 use super::output_kind::OutputKind;
 use super::stdio::{self, print_error};
 use super::{
-    build, check, completions, config, developer, explain, fmt, init, plan, precision, preview, run,
-    scaffold, schema, snapshot, stability, trace,
+    build, check, completions, config, developer, explain, fmt, init, plan, precision, preview,
+    report_schema, run, scaffold, schema, snapshot, stability, trace,
 };
 use clap::{CommandFactory, Parser, Subcommand};
 use labspec::interrupt;
@@ -210,6 +210,9 @@ fn write_reference(folder: &std::path::Path) -> Result<CommandOutcome, Failure> 
         write_file(&folder.join(name), OutputKind::Reference, &text)?;
     }
     for (name, text) in labspec::reference::schemas() {
+        write_file(&schemas.join(name), OutputKind::Reference, &text)?;
+    }
+    for (name, text) in report_schema::schemas() {
         write_file(&schemas.join(name), OutputKind::Reference, &text)?;
     }
     Ok(CommandOutcome::Clean)

@@ -6,14 +6,15 @@ use super::common::Failure;
 use super::course::CourseResults;
 use super::output::write_file;
 use super::output_kind::OutputKind;
+use super::schema_words::AnyNumber;
 use labspec::check::{ReferenceRecording, file_name};
 use labspec::report::printable_lines;
-use labspec::report::{nonfinite, printable_path, to_value};
+use labspec::report::{nonfinite, printable_path};
 use labspec::source::read_text;
 use labspec::verify::judge::{Difference, RecordedRun, RunTask, Unjudged};
+use schemars::JsonSchema;
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
@@ -102,44 +103,67 @@ impl<T> ParsedField<T> {
     }
 }
 
-/// The results of the comparison for all lessons.
-#[derive(Default, Serialize)]
+/// What a second judge makes of the claims.
+#[derive(Default, Serialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
-struct JudgeReport<'c> {
+pub(super) struct JudgeReport<'c> {
+    /// What made the recording: `MuJoCo 3.14.0`.
     engine: &'c str,
+    /// Measures that were compared.
     compared: usize,
+    /// Answers and quoted numbers that were judged again.
     verdicts: usize,
+    /// Those of them whose verdict is another one; each is a finding.
     turned: usize,
+    /// Claims that no judge is asked about, as they rest on other runs.
     not_judged: Unjudged,
+    /// Runs that were recorded of another text.
     stale_runs: usize,
+    /// Runs that are not recorded.
     missing_runs: usize,
+    /// Measures with another value.
     differing: Vec<DifferenceRow<'c>>,
+    /// Measures that the judge has not taken.
     unjudged: Vec<UnjudgedRow<'c>>,
 }
 
-#[derive(Serialize)]
+/// A measure with another value.
+#[derive(Serialize, JsonSchema)]
 struct DifferenceRow<'c> {
+    /// The name of the lesson's file, without its folder.
     file: String,
+    /// The lab or the question.
     owner: &'c str,
+    /// Run and measure, or the expression itself.
     measure: &'c str,
+    /// The value here.
     #[serde(rename = "ours")]
+    #[schemars(with = "AnyNumber")]
     labspec_value: f64,
+    /// The value that is recorded.
     #[serde(rename = "theirs")]
+    #[schemars(with = "AnyNumber")]
     reference_value: f64,
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     nonfinite: BTreeMap<&'c str, &'c str>,
-    /// Why one of them is NaN.
+    /// Why one of the values is NaN, if that is known.
     #[serde(rename = "reason", skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "String")]
     no_value: Option<&'c str>,
     #[serde(skip)]
     difference: &'c Difference,
 }
 
-#[derive(Serialize)]
+/// A measure that the judge has not taken.
+#[derive(Serialize, JsonSchema)]
 struct UnjudgedRow<'c> {
+    /// The name of the lesson's file, without its folder.
     file: String,
+    /// The lab or the question.
     owner: &'c str,
+    /// Run and measure, or the expression itself.
     measure: &'c str,
+    /// Why, in a clause.
     reason: &'c str,
 }
 
@@ -337,8 +361,8 @@ pub(super) fn summary(file: &Path, engine: &str, results: &CourseResults) -> Str
 }
 
 /// The results of the comparison, for programs.
-pub(super) fn machine(engine: &str, results: &CourseResults) -> Value {
-    to_value(&JudgeReport::new(engine, results))
+pub(super) fn machine<'c>(engine: &'c str, results: &'c CourseResults) -> JudgeReport<'c> {
+    JudgeReport::new(engine, results)
 }
 
 /// `2 searches, 1 range, 5 closed forms`, or `None` if nothing was left out.

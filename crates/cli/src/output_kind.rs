@@ -129,7 +129,11 @@ impl OutputKind<'_> {
             OutputKind::Reference => {
                 text.starts_with("<!-- Written from the tables: ")
                     || text.starts_with("{\n  \"$schema\": ")
-                        && value().is_some_and(|v| !v["$defs"].is_null())
+                        && value().is_some_and(|v| {
+                            let of_report =
+                                v["title"].as_str().is_some_and(|title| title.starts_with("labspec "));
+                            of_report || !v["$defs"].is_null()
+                        })
             }
             OutputKind::New | OutputKind::Lesson(_) => false,
         }

@@ -9,8 +9,9 @@ use labspec::report::printable;
 use labspec::verify::significant;
 use labspec_core::reflect::FieldSet;
 use labspec_numerics::profile::{
-    EngineOption, PairSummary, PlanOptions, PlanReport, REPEATS, SensorRow, StageCost, name,
+    CONES, EngineOption, PairSummary, PlanOptions, PlanReport, REPEATS, SensorRow, StageCost, name,
 };
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::fmt::Write;
 
@@ -228,119 +229,191 @@ fn readers(report: &PlanReport, text: &mut String) {
     }
 }
 
-/// The plan of a lab for programs.
-#[derive(Serialize)]
-struct PlanOutput<'a> {
+/// Which stages of the engine a lab or a model needs, why, and what they cost. Times are measured: they differ from run to run; with
+/// --no-run nothing is run, and what would be seen in a run is null.
+#[derive(Serialize, JsonSchema)]
+pub(super) struct PlanOutput<'a> {
+    /// Fields that are read, by MuJoCo's names.
     reads: Vec<&'static str>,
+    /// Fields that are written.
     writes: Vec<&'static str>,
+    /// Every stage, in the order of a step.
     stages: Vec<PlanStageRow<'a>>,
+    /// What a step of the lab's own run costs; null where nothing was run.
     step: Option<Step>,
+    /// The pairs of geoms.
     pairs: PairRow<'a>,
+    /// Every sensor of the model, in its order: one that nobody reads is left out by itself.
     sensors: &'a [SensorRow],
+    /// The constraint solver.
     solver: SolverRow<'a>,
+    /// The integrators.
     integrators: &'a [EngineOption],
+    /// The ways of computing trees, the shortest first, and how many trees take each.
     #[serde(rename = "ways")]
     tree_algorithms: Vec<TreeAlgorithmRow>,
+    /// What more readers (`--read`) would cost, one by one; where there are several, then all of them together.
     readers: Vec<ReaderRow<'a>>,
 }
 
-/// A stage: its share of a step, its time in ns, its work in units of the engine.
-#[derive(Serialize)]
+/// A stage.
+#[derive(Serialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
+#[schemars(rename = "stage")]
 struct PlanStageRow<'a> {
+    /// Its name.
     stage: String,
+    /// It runs in every step.
     keep: bool,
+    /// Why, or why not.
     reason: &'a str,
+    /// Its part of a step's time, of one; null where it does not run.
     share: Option<f64>,
+    /// Its nanoseconds of a step.
     ns: Option<f64>,
+    /// The work of a step that it counts itself, in units of about a nanosecond: the same on every machine.
     work: Option<f64>,
+    /// What a step would take longer if it ran with all that it uses, in nanoseconds, as the difference of two measured runs; null where
+    /// it runs.
     forced_ns: Option<f64>,
 }
 
-/// The cost of a step in ns: the median and the quartiles of the repetitions, and the median with everything read.
-#[derive(Serialize)]
+/// What a step of the lab's own run costs.
+#[derive(Serialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
 struct Step {
+    /// The steps that were measured, from the start on.
+    #[schemars(range(min = 1))]
     steps: usize,
+    /// Nanoseconds of a step: the median of the repeats.
     ns: f64,
+    /// A quarter of the repeats is quicker.
     low_ns: f64,
+    /// A quarter of the repeats is slower.
     high_ns: f64,
+    /// The same if everything were read.
     full_ns: f64,
+    /// The work of a step as the engine counts it: the same on every machine.
     work: f64,
+    /// The next state, the look for numbers that are none, and what a run looks after between steps.
     integrator: CostRow,
-    controller: Option<CostRow>,
+    /// The lab's own program before the steps; null where it has none.
+    controller: Option<ControllerRow>,
 }
 
-/// A share of a step, and the time in ns.
-#[derive(Serialize)]
+/// What something costs.
+#[derive(Serialize, JsonSchema)]
 struct CostRow {
+    /// Its part of a step, of one.
     share: f64,
+    /// Nanoseconds of a step.
     ns: f64,
-    /// When the lab's controller runs.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    reason: Option<&'static str>,
 }
 
-#[derive(Serialize)]
+/// What the lab's own program costs.
+#[derive(Serialize, JsonSchema)]
+struct ControllerRow {
+    /// Its part of a step, of one.
+    share: f64,
+    /// Nanoseconds of a step.
+    ns: f64,
+    /// When it runs.
+    reason: &'static str,
+}
+
+/// The pairs of geoms.
+#[derive(Serialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
+#[schemars(rename = "pairs")]
 struct PairRow<'a> {
+    /// All pairs that there are.
     all: usize,
+    /// Those that can ever touch.
     can_touch: usize,
+    /// How those that can touch are tested.
     tests: Vec<SearchTest<'a>>,
+    /// Those that cannot.
     #[serde(rename = "leftOut")]
     excluded: Vec<ExcludedPairs>,
+    /// Pairs of a step whose bounds are within reach of each other: the others cost one comparison.
     in_reach: Option<MeanAndMaximum>,
+    /// Contacts of a step.
     contacts: Option<MeanAndMaximum>,
 }
 
-#[derive(Serialize)]
+/// Pairs of two shapes.
+#[derive(Serialize, JsonSchema)]
 struct SearchTest<'a> {
+    /// The two.
     shapes: &'a [&'static str; 2],
+    /// How many.
+    #[schemars(range(min = 1))]
     pairs: usize,
+    /// Contacts are searched for by the general algorithm of convex shapes, not found in closed form.
     searched: bool,
 }
 
-#[derive(Serialize)]
+/// Pairs that are left out for one reason.
+#[derive(Serialize, JsonSchema)]
 struct ExcludedPairs {
+    /// Why they never touch.
     reason: &'static str,
+    /// How many.
+    #[schemars(range(min = 1))]
     pairs: usize,
 }
 
-/// The mean and the maximum of a count.
-#[derive(Serialize)]
+/// A number of each step.
+#[derive(Serialize, JsonSchema)]
 struct MeanAndMaximum {
+    /// In the mean of the steps.
     mean: f64,
+    /// In the step with most.
     most: f64,
 }
 
-#[derive(Serialize)]
+/// The constraint solver.
+#[derive(Serialize, JsonSchema)]
 struct SolverRow<'a> {
+    /// The cone of friction.
+    #[schemars(extend("enum" = CONES))]
     cone: &'static str,
+    /// Its methods.
     methods: &'a [EngineOption],
+    /// Rows of constraints of a step.
     rows: Option<MeanAndMaximum>,
+    /// Iterations of a step.
     iterations: Option<MeanAndMaximum>,
 }
 
-/// The number of trees that an algorithm computes.
-#[derive(Serialize)]
+/// A way of computing trees.
+#[derive(Serialize, JsonSchema)]
 struct TreeAlgorithmRow {
+    /// Its name.
     name: &'static str,
+    /// Trees that take it for where their bodies are.
     places: usize,
+    /// For their inertia and forces.
     forces: usize,
+    /// For their accelerations.
     accelerations: usize,
 }
 
-/// An additional reader: the additional time of a step in ns, and as a share of it.
-#[derive(Serialize)]
+/// A further reader.
+#[derive(Serialize, JsonSchema)]
 struct ReaderRow<'a> {
+    /// As it was asked for.
     read: &'a str,
+    /// Stages that run with it and not without.
     joins: Vec<String>,
+    /// What a step takes longer, in nanoseconds; null where nothing was run.
     ns: Option<f64>,
+    /// The same as a part of the step without it, of one.
     share: Option<f64>,
 }
 
-fn cost(cost: StageCost, reason: Option<&'static str>) -> CostRow {
-    CostRow { share: cost.share, ns: cost.ns, reason }
+fn cost(cost: StageCost) -> CostRow {
+    CostRow { share: cost.share, ns: cost.ns }
 }
 
 fn mean_and_maximum([mean, most]: [f64; 2]) -> MeanAndMaximum {
@@ -379,8 +452,12 @@ fn machine(report: &PlanReport) -> PlanOutput<'_> {
         high_ns: s.quartiles[1],
         full_ns: s.full,
         work: s.work,
-        integrator: cost(s.integrator, None),
-        controller: s.controller.map(|c| cost(c, report.controller)),
+        integrator: cost(s.integrator),
+        controller: s.controller.zip(report.controller).map(|(cost, reason)| ControllerRow {
+            share: cost.share,
+            ns: cost.ns,
+            reason,
+        }),
     });
     let tree_algorithms = report.tree_algorithms.iter().map(|w| {
         let [places, forces, accelerations] = w.trees;

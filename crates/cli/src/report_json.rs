@@ -4,14 +4,17 @@
 use super::common::Failure;
 use super::output::write_file;
 use super::output_kind::OutputKind;
+use super::schema_words::AnyNumber;
 use super::stdio::print_json;
 use labspec::report::{self, SCHEMA_VERSION, printable, printable_path};
-use labspec::source::{SourceFile, read_text};
+use labspec::source::read_text;
 use labspec::verify::Measured;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
-use std::ops::Range;
+use std::borrow::Cow;
+use std::marker::PhantomData;
 use std::path::Path;
 
 /// A report with its head.
@@ -85,13 +88,6 @@ pub(super) fn write_report(
     write_file(path, stored.output, &(text + "\n"))
 }
 
-/// A location in the format of all reports, to be flattened into an object.
-pub(super) fn place(sources: &[&SourceFile], path: &str, span: &Range<usize>) -> Value {
-    let mut place = Value::Null;
-    report::set_place(&mut place, sources, path, span);
-    place
-}
-
 /// An object with these entries.
 pub(super) fn object<T: Serialize>(entries: impl Iterator<Item = (String, T)>) -> Map<String, Value> {
     entries.map(|(key, value)| (key, serde_json::to_value(value).unwrap_or_default())).collect()
@@ -138,8 +134,31 @@ pub(super) fn nonfinite(numbers: &[(&str, &dyn Numbers)]) -> NonFinite {
     numbers.iter().filter_map(|(key, x)| Some((key.to_string(), x.names()?))).collect()
 }
 
+/// A row of this type, with the names of those of its numbers that JSON cannot represent.
+#[derive(Serialize)]
+#[serde(transparent)]
+pub(super) struct WithNonfinite<T> {
+    entries: Map<String, Value>,
+    #[serde(skip)]
+    row: PhantomData<T>,
+}
+
+impl<T: JsonSchema> JsonSchema for WithNonfinite<T> {
+    fn schema_name() -> Cow<'static, str> {
+        T::schema_name()
+    }
+
+    fn schema_id() -> Cow<'static, str> {
+        T::schema_id()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        T::json_schema(generator)
+    }
+}
+
 /// A row with these numbers. `nonfinite` follows the first of them that JSON cannot represent.
-pub(super) fn with_nonfinite(row: &impl Serialize, numbers: &[(&str, &dyn Numbers)]) -> Map<String, Value> {
+pub(super) fn with_nonfinite<T: Serialize>(row: &T, numbers: &[(&str, &dyn Numbers)]) -> WithNonfinite<T> {
     let mut names = Some(nonfinite(numbers));
     let mut all = Map::new();
     if let Ok(Value::Object(row)) = serde_json::to_value(row) {
@@ -149,7 +168,7 @@ pub(super) fn with_nonfinite(row: &impl Serialize, numbers: &[(&str, &dyn Number
             all.extend(names.map(|names| ("nonfinite".to_string(), names.into())));
         }
     }
-    all
+    WithNonfinite { entries: all, row: PhantomData }
 }
 
 /// The number, if JSON can represent it.
@@ -157,10 +176,14 @@ pub(super) fn finite(x: f64) -> Option<f64> {
     x.is_finite().then_some(x)
 }
 
-/// A measure and its value at half the timestep, in the unit of the measure.
-#[derive(Debug, Serialize, Deserialize)]
+/// A measure.
+#[derive(Debug, Serialize, Deserialize, JsonSchema)]
 pub(super) struct MeasureRow {
+    /// Its value.
+    #[schemars(with = "AnyNumber")]
     pub(super) value: Option<f64>,
+    /// Its value at half the timestep; null when that was not run.
+    #[schemars(with = "AnyNumber")]
     halved: Option<f64>,
     #[serde(default, skip_serializing_if = "NonFinite::is_empty")]
     pub(super) nonfinite: NonFinite,

@@ -16,7 +16,9 @@ use labspec::verify::{Verdict, significant};
 use labspec_finding::nearest;
 use labspec_proposals::scaffold::{Scaffold, ScaffoldOutcome, scaffold as look, written};
 use labspec_proposals::trace::{ProposedVerify, format_verify};
+use schemars::JsonSchema;
 use serde::Serialize;
+use serde_json::{Map, Value};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -178,33 +180,71 @@ fn value_lines(indent: &str, values: &[(String, f64)]) -> String {
     values.iter().map(|(name, x)| format!("{indent}{} = {}\n", printable(name), significant(*x))).collect()
 }
 
-/// The proposals for programs.
-#[derive(Serialize)]
-struct ScaffoldReport<'a> {
+/// A first verify object for every question and lab of a lesson that has none.
+#[derive(Serialize, JsonSchema)]
+pub(super) struct ScaffoldReport<'a> {
+    /// The result for each: labs, then questions.
     found: Vec<ScaffoldRow<'a>>,
 }
 
-/// A question or a lab, its location in bytes and in lines from 1, and the result.
-#[derive(Default, Serialize)]
+/// A question or a lab.
+#[derive(Default, Serialize, JsonSchema)]
 struct ScaffoldRow<'a> {
+    /// Which one, as reports name it.
     name: &'a str,
+    /// The first byte of its object in the file.
     start: usize,
+    /// The byte behind the last one.
     end: usize,
+    /// Its line, from 1.
+    #[schemars(range(min = 1))]
     line: usize,
+    /// Its column in characters, from 1.
+    #[schemars(range(min = 1))]
     column: usize,
-    outcome: &'static str,
+    /// An object is proposed; the runs support another option than the key; there is only a skeleton; or there is nothing.
+    outcome: OutcomeWord,
+    /// The object, as the lesson format has it.
+    #[schemars(with = "Option<Map<String, Value>>")]
     verify: Option<&'a ProposedVerify>,
+    /// What was measured.
     values: Vec<ValueRow<'a>>,
+    /// Options, counted from 1, that the runs do not decide.
+    #[schemars(inner(range(min = 1)))]
     undecided: &'a [usize],
-    tried: Option<&'static str>,
+    /// What gives the key in a trial of the object: the runs, or a formula. Null for labs and without a proposal.
+    tried: Option<TrialWord>,
+    /// A remark on the proposal, or why there is none.
     reason: Option<&'a str>,
+    /// The option, counted from 1, that the runs support, if it is not the key.
+    #[schemars(range(min = 1))]
     option: Option<usize>,
 }
 
-/// A measure in its unit.
-#[derive(Serialize)]
+#[derive(Default, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+enum OutcomeWord {
+    Proposed,
+    Contradicted,
+    Skeleton,
+    #[default]
+    Open,
+}
+
+#[derive(Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+enum TrialWord {
+    Runs,
+    Formula,
+}
+
+/// A measure.
+#[derive(Serialize, JsonSchema)]
 struct ValueRow<'a> {
+    /// Its name in the object, or the measure and its run.
     name: &'a str,
+    /// Its value; null where there is none.
+    #[schemars(with = "Option<f64>")]
     value: f64,
 }
 
@@ -222,23 +262,25 @@ fn row<'a>(lesson: &Lesson, one: &'a Scaffold) -> ScaffoldRow<'a> {
         ScaffoldRow { name: &one.name, start: span.start, end: span.end, line, column, ..Default::default() };
     match &one.found {
         ScaffoldOutcome::Proposed { verify, values, undecided, verdict } => ScaffoldRow {
-            outcome: "proposed",
+            outcome: OutcomeWord::Proposed,
             verify: Some(verify),
             values: measured(values),
             undecided,
             tried: verdict.as_ref().map(|(v, _)| match v {
-                Verdict::Verified => "runs",
-                _ => "formula",
+                Verdict::Verified => TrialWord::Runs,
+                _ => TrialWord::Formula,
             }),
             reason: verdict.as_ref().map(|(_, reason)| reason.as_str()),
             ..row
         },
         ScaffoldOutcome::Contradicted { option, values } => {
-            ScaffoldRow { outcome: "contradicted", values: measured(values), option: Some(option + 1), ..row }
+            let outcome = OutcomeWord::Contradicted;
+            ScaffoldRow { outcome, values: measured(values), option: Some(option + 1), ..row }
         }
         ScaffoldOutcome::Skeleton { why, verify } => {
-            ScaffoldRow { outcome: "skeleton", verify: Some(verify), reason: Some(why), ..row }
+            let outcome = OutcomeWord::Skeleton;
+            ScaffoldRow { outcome, verify: Some(verify), reason: Some(why), ..row }
         }
-        ScaffoldOutcome::Open(why) => ScaffoldRow { outcome: "open", reason: Some(why), ..row },
+        ScaffoldOutcome::Open(why) => ScaffoldRow { outcome: OutcomeWord::Open, reason: Some(why), ..row },
     }
 }

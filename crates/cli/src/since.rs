@@ -5,36 +5,45 @@ use super::report_json::NonFinite;
 use super::reproduction::{ClaimRecord, LessonRecord, ReproductionRecord, SettingsRecord};
 use labspec::report::printable;
 use labspec::verify::significant;
+use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
-/// The changes of one lab, of one question, or of labspec itself.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+/// What changed of one lab or question.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[schemars(rename = "change")]
 pub(super) struct LessonChange {
-    /// The lesson; empty for changes that concern all lessons.
+    /// The lesson, from the folder of the record; empty for what concerns all.
     file: String,
-    /// The lab or the question.
+    /// The lab or the question; `labspec` for its own version.
     owner: String,
-    /// Changed verdicts and values.
+    /// Verdicts and values that changed.
     effects: Vec<ChangedValue>,
-    /// Changed settings, contacts, models and texts.
+    /// Settings, contacts, models and texts that changed with them.
     causes: Vec<ChangedValue>,
 }
 
-/// A value that has changed.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+/// Something that was one thing and is another.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[schemars(rename = "step")]
 struct ChangedValue {
+    /// What it is: a subject of the ledger, a measure, a setting.
     what: String,
-    /// `null` if it did not exist.
+    /// What it was; null where it was not there.
+    #[schemars(extend("type" = RECORDED_TYPES))]
     before: Value,
-    /// `null` if it does not exist any more.
+    /// What it is; null where it is gone.
     #[serde(rename = "now")]
+    #[schemars(extend("type" = RECORDED_TYPES))]
     current: Value,
-    /// The difference of a number, in its unit.
+    /// By how much a number has changed; null for what is none.
     difference: Option<f64>,
 }
+
+/// The types that a recorded value has.
+const RECORDED_TYPES: [&str; 4] = ["null", "string", "number", "array"];
 
 /// All differences, in the order of the files.
 pub(super) fn changes(before: &ReproductionRecord, current: &ReproductionRecord) -> Vec<LessonChange> {

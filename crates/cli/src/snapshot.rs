@@ -17,6 +17,7 @@ use labspec::lint::{ModelFolder, load_lesson_file, snapshot_path};
 use labspec::report::counted;
 use labspec::report::{printable, printable_path};
 use labspec::spec::{FileKind, kind_of};
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
@@ -66,6 +67,14 @@ enum SnapshotStatus {
 }
 
 impl SnapshotStatus {
+    const ALL: [SnapshotStatus; 5] = [
+        SnapshotStatus::New,
+        SnapshotStatus::Same,
+        SnapshotStatus::Changed,
+        SnapshotStatus::Unreadable,
+        SnapshotStatus::Gone,
+    ];
+
     fn as_str(self) -> &'static str {
         match self {
             SnapshotStatus::New => "new",
@@ -303,24 +312,36 @@ fn summary(all: &[ReviewedSnapshot], asked: bool) -> String {
     text
 }
 
-#[derive(Serialize)]
-struct SnapshotReport<'a> {
+/// What is stored of what the labs of lessons show, and whether it still is so.
+#[derive(Serialize, JsonSchema)]
+pub(super) struct SnapshotReport<'a> {
+    /// Every snapshot that is there or could be.
     files: Vec<FileRow<'a>>,
 }
 
-#[derive(Serialize)]
+/// The snapshot of a lesson.
+#[derive(Serialize, JsonSchema)]
 struct FileRow<'a> {
+    /// Its path: that of the lesson, with `.snap` behind.
     file: String,
+    /// How it stood before: none was stored, all as stored, something else, not readable, or its lesson gone.
+    #[schemars(extend("enum" = SnapshotStatus::ALL.map(SnapshotStatus::as_str)))]
     standing: &'static str,
+    /// It was written anew, or removed.
     written: bool,
+    /// What is wrong with a file that cannot be read, with its place; null otherwise.
     fault: Option<&'a str>,
+    /// The labs.
     labs: Vec<SnapshotLabRow<'a>>,
 }
 
-#[derive(Serialize)]
+/// What became of the snapshot of a lab.
+#[derive(Serialize, JsonSchema)]
+#[schemars(rename = "lab")]
 struct SnapshotLabRow<'a> {
     #[serde(flatten)]
     snapshot: SnapshotRow<'a>,
+    /// It is stored as it is now.
     accepted: bool,
 }
 

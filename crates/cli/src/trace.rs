@@ -14,7 +14,9 @@ use labspec::verify::significant;
 use labspec_proposals::trace::{
     self, MeasureMatch, Origin, ProposedVerify, Traced, Traces, blocks, format_verify,
 };
+use schemars::JsonSchema;
 use serde::Serialize;
+use serde_json::{Map, Value};
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -145,35 +147,70 @@ fn share(x: f64) -> String {
     if x < 0.001 { "below 0.1 %".to_string() } else { format!("{:.1} %", 100.0 * x) }
 }
 
-/// The origins of the numbers of a lesson, for programs.
-#[derive(Serialize)]
-struct TraceReport<'a> {
+/// Where the numbers of a lesson come from: for each number with a unit the simplest measure of a run that has its digits, and what
+/// an author can take over.
+#[derive(Serialize, JsonSchema)]
+pub(super) struct TraceReport<'a> {
+    /// Every number with a unit that a reader sees, and the answers of numeric questions, in the order of the text.
     numbers: Vec<NumberRow<'a>>,
+    /// A verify object for each lab that numbers come from.
     proposals: Vec<ProposalRow>,
 }
 
-/// A number, its location in bytes and in lines from 1, and its origin; `value` is in SI units.
-#[derive(Serialize)]
+/// A number.
+#[derive(Serialize, JsonSchema)]
 struct NumberRow<'a> {
+    /// Number and unit as a quote has them.
     text: &'a str,
+    /// The first byte in the file.
     start: usize,
+    /// The byte behind the last one.
     end: usize,
+    /// Its line, from 1.
+    #[schemars(range(min = 1))]
     line: usize,
+    /// Its column in characters, from 1.
+    #[schemars(range(min = 1))]
     column: usize,
+    /// Its unit, possibly that of its column.
     unit: &'a str,
-    origin: &'static str,
+    /// Claimed by the lesson already; traced to a run or a formula; with digits that a start moved by 1e-14 changes; set by the text;
+    /// printed by a listing; perhaps by chance; or unknown.
+    origin: OriginWord,
+    /// The lab and the run, or that it was worked out; null where nothing was found.
     from: Option<String>,
+    /// The measure, or the formula.
     measure: Option<&'a str>,
+    /// What makes its value the number of the text.
     factor: Option<&'a str>,
+    /// The value in the unit of the text.
     value: Option<f64>,
+    /// How likely something as simple has these digits by chance, of one.
+    #[schemars(range(min = 0, max = 1))]
     chance: Option<f64>,
+    /// What the text sets to this number, where it does.
     by: Option<&'a str>,
 }
 
-/// A proposed object for a lab, in the form in which an author writes it.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+enum OriginWord {
+    Claimed,
+    Traced,
+    Unsteady,
+    Set,
+    Listed,
+    Chance,
+    Unknown,
+}
+
+/// A proposed object for a lab.
+#[derive(Serialize, JsonSchema)]
 struct ProposalRow {
+    /// The address of the lab in the lesson.
     lab: String,
+    /// The object, as the lesson format has it.
+    #[schemars(with = "Map<String, Value>")]
     verify: ProposedVerify,
 }
 
@@ -181,13 +218,13 @@ fn machine<'a>(lesson: &Lesson, found: &'a Traces<'_>) -> TraceReport<'a> {
     let numbers = found.numbers.iter().map(|n| {
         let position = lesson.file.position(n.stated.span.start);
         let (origin, hit, by) = match &n.origin {
-            Origin::From(hit) => ("traced", Some(hit), None),
-            Origin::Chance(hit) => ("chance", Some(hit), None),
-            Origin::Unsteady(hit) => ("unsteady", Some(hit), None),
-            Origin::Setting(words) => ("set", None, Some(words.as_str())),
-            Origin::Listed(_) => ("listed", None, None),
-            Origin::Claimed => ("claimed", None, None),
-            Origin::Unknown => ("unknown", None, None),
+            Origin::From(hit) => (OriginWord::Traced, Some(hit), None),
+            Origin::Chance(hit) => (OriginWord::Chance, Some(hit), None),
+            Origin::Unsteady(hit) => (OriginWord::Unsteady, Some(hit), None),
+            Origin::Setting(words) => (OriginWord::Set, None, Some(words.as_str())),
+            Origin::Listed(_) => (OriginWord::Listed, None, None),
+            Origin::Claimed => (OriginWord::Claimed, None, None),
+            Origin::Unknown => (OriginWord::Unknown, None, None),
         };
         NumberRow {
             text: &n.stated.quote,

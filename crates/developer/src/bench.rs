@@ -3,11 +3,12 @@
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use labspec::bind::Programs;
 use labspec::interrupt;
-use labspec::report::nonfinite;
+use labspec::report::{NonfiniteName, nonfinite};
 use labspec::run::{MAX_STEPS, Session, Start};
 use labspec::spec::Lab;
 use labspec_core::reflect::FieldSet;
 use labspec_core::{AccessSet, Model, Plan, TreeAlgorithm, TreeAlgorithms};
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::time::Instant;
 
@@ -35,33 +36,36 @@ pub struct BenchOptions {
     pub reset: bool,
 }
 
-/// The time of a step.
-#[derive(Clone, Debug, Serialize)]
+/// The time of a step. Times are measured: they differ from run to run.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
 pub struct StepTime {
-    /// The fastest repetition, ns; `None` if no repetition was completed.
+    /// The fastest repetition, in nanoseconds for a step; null when none was finished.
     pub min_ns: Option<f64>,
-    /// The median of the repetitions, ns.
+    /// The median of the repetitions.
     pub median_ns: Option<f64>,
-    /// The steps of each repetition.
+    /// Steps of each repetition.
     pub steps: usize,
-    /// The degrees of freedom.
+    /// Degrees of freedom.
     pub nv: usize,
-    /// The contacts at the end.
+    /// Contacts at the end.
     pub ncon: usize,
-    /// The constraint rows at the end.
+    /// Rows of constraints at the end.
     pub nefc: usize,
-    /// The simulated time at the end, s.
+    /// Time of the simulation at the end, in seconds.
+    #[schemars(with = "Option<f64>")]
     pub time: f64,
-    /// The name of the time, if it is not finite.
+    /// Under the key of a number that is null: what it was. Absent when every number is one.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "NonfiniteTime")]
     pub nonfinite: Option<NonfiniteTime>,
 }
 
 /// A time that JSON cannot represent.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct NonfiniteTime {
     /// Its name.
+    #[schemars(with = "NonfiniteName")]
     pub time: &'static str,
 }
 

@@ -4,5 +4,6 @@
 pub mod bench;
 mod number_fields;
 pub mod record;
+mod recorded_fields;
 
 pub use number_fields::{NumberFields, Numbers};

@@ -1,7 +1,9 @@
 //! Numbers by name, as `record` reports them.
 
-use labspec::report::nonfinite;
+use labspec::report::{NonfiniteEntries, NonfiniteName, nonfinite};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::ser::{Serialize, SerializeMap, Serializer};
+use std::borrow::Cow;
 
 /// An object of numbers in the order of the list. JSON has no NaN and no infinities: such a number is `null`, and the entry
 /// `nonfinite`, after the first one that contains such a number, contains their names under the same keys.
@@ -84,6 +86,70 @@ impl Serialize for NumberFields {
             }
         }
         map.end()
+    }
+}
+
+impl JsonSchema for NumberFields {
+    fn schema_name() -> Cow<'static, str> {
+        "fields".into()
+    }
+
+    /// Objects within it have names of their own: whoever expects them says so.
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "description": "Fields by MuJoCo's names.",
+            "type": "object",
+            "properties": {"nonfinite": generator.subschema_for::<NonfiniteFields>()},
+            "additionalProperties": generator.subschema_for::<Field>(),
+        })
+    }
+}
+
+/// The values of a field as JSON has them.
+pub(crate) struct NumberList;
+
+impl JsonSchema for NumberList {
+    fn schema_name() -> Cow<'static, str> {
+        "numbers".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let mut list = generator.subschema_for::<Vec<Option<f64>>>();
+        list.insert("description".into(), "The values of a field, row by row.".into());
+        list
+    }
+}
+
+/// A field as JSON has it.
+struct Field;
+
+impl JsonSchema for Field {
+    fn schema_name() -> Cow<'static, str> {
+        "field".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let (one, list) = (generator.subschema_for::<Option<f64>>(), generator.subschema_for::<NumberList>());
+        json_schema!({"description": "A field: a size, or its values.", "anyOf": [one, list]})
+    }
+}
+
+/// The names of numbers that JSON cannot represent, by field.
+pub(crate) struct NonfiniteFields;
+
+impl JsonSchema for NonfiniteFields {
+    fn schema_name() -> Cow<'static, str> {
+        "nonfiniteOf".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let name = generator.subschema_for::<NonfiniteName>();
+        let entries = generator.subschema_for::<NonfiniteEntries>();
+        json_schema!({
+            "description": "Under the name of a field: what those numbers are that are null. Absent when every number is one.",
+            "type": "object",
+            "additionalProperties": {"anyOf": [name, entries]},
+        })
     }
 }
 

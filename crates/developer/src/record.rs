@@ -1,14 +1,18 @@
 //! The values of this engine for the states of a MuJoCo recording, in the same layout.
 
 use super::number_fields::{NumberFields, Numbers};
+use super::recorded_fields::{ForwardFields, TrajectoryFields};
 use labspec::interrupt;
 use labspec::report::{printable, printable_path};
 use labspec::run::MAX_STEPS;
 use labspec::source::read_text;
 use labspec_core::reflect::{self, Object, View};
 use labspec_core::{self as core, Data, Model, Warning};
+use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
+use std::collections::BTreeMap;
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 /// The options of the recording.
@@ -31,22 +35,28 @@ pub struct RecordOptions {
     pub option: Vec<String>,
 }
 
-/// The values of this engine.
-#[derive(Clone, Debug, Serialize)]
+/// The numbers of this engine for the states of a recording of MuJoCo, in the layout of that recording. Keys below `sizes`, `model`,
+/// `forward` and `trajectory` are MuJoCo's names.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct EngineRecording {
-    /// The program that computed it.
+    /// The program that wrote it.
     pub version: &'static str,
-    /// The sizes of the model that the MuJoCo recording contains.
+    /// Sizes of the model that the recording names.
+    #[schemars(with = "BTreeMap<String, usize>")]
     pub sizes: NumberFields,
-    /// Always empty: names are in the MuJoCo recording.
+    /// Always empty: names are the recording's.
+    #[schemars(with = "BTreeMap<String, ()>", extend("additionalProperties" = false))]
     pub names: NumberFields,
-    /// The fields of the model that the MuJoCo recording contains.
+    /// Fields of the model that the recording names.
     pub model: NumberFields,
-    /// For each of its states, the fields that it contains, after a forward pass.
+    /// What the forward pass gives, for every state.
+    #[schemars(with = "Vec<ForwardFields>")]
     pub forward: Vec<NumberFields>,
-    /// A run from the start, row by row.
+    /// A trajectory from the start.
+    #[schemars(with = "Vec<TrajectoryFields>")]
     pub trajectory: Vec<NumberFields>,
-    /// The number of warnings of the engine, by name.
+    /// Warnings of the engine, by MuJoCo's name, with how often each was raised.
+    #[schemars(with = "BTreeMap<String, NonZeroUsize>")]
     pub warnings: NumberFields,
 }
 

@@ -21,6 +21,9 @@ pub enum Applicability {
 }
 
 impl Applicability {
+    /// Every applicability, the most certain first.
+    pub const ALL: [Applicability; 3] = [Applicability::Safe, Applicability::Unsafe, Applicability::Display];
+
     /// `safe`, `unsafe` or `display`.
     pub fn as_str(self) -> &'static str {
         match self {

@@ -95,6 +95,17 @@ pub enum State {
 }
 
 impl State {
+    /// Every state; of a true claim, with each evidence.
+    pub const ALL: [State; 7] = [
+        State::True(Evidence::Computed),
+        State::True(Evidence::Simulated),
+        State::False,
+        State::Unchecked,
+        State::Skipped,
+        State::Baselined,
+        State::NotClaimed,
+    ];
+
     /// The state in words, for programs: `true`, `false`, `unchecked`, `left out`, `known`, `not claimed`.
     pub fn as_str(self) -> &'static str {
         match self {
@@ -135,26 +146,27 @@ pub struct Ledger {
     entries: Vec<Entry>,
 }
 
-/// The number of claims of a subject in each state.
+/// Claims of one subject, by what became of them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "camelCase")]
+#[cfg_attr(feature = "report", derive(schemars::JsonSchema))]
 pub struct Count {
-    /// True, by a simulation.
+    /// True: a simulation shows it.
     pub simulated: usize,
-    /// True, without a simulation.
+    /// True: worked out without a simulation.
     pub computed: usize,
     /// False.
     #[serde(rename = "false")]
     pub wrong: usize,
-    /// Not checked.
+    /// Could not be checked.
     pub unchecked: usize,
-    /// Skipped in this check.
+    /// Left out of this check: nothing was to be run, an error was ignored, or nothing is known of a widget.
     #[serde(rename = "leftOut")]
     pub skipped: usize,
-    /// In the baseline.
+    /// False or not checked, as in the baseline.
     #[serde(rename = "known")]
     pub baselined: usize,
-    /// Not claimed.
+    /// Not claimed by anybody.
     pub not_claimed: usize,
 }
 
@@ -174,6 +186,10 @@ pub enum Outcome {
 }
 
 impl Outcome {
+    /// Every outcome.
+    pub const ALL: [Outcome; 5] =
+        [Outcome::Clean, Outcome::Findings, Outcome::Partial, Outcome::Baselined, Outcome::Nothing];
+
     /// The outcome in a word: `clean`, `findings`, `partial`, `known` or `nothing`.
     pub fn as_str(self) -> &'static str {
         match self {

@@ -1,6 +1,6 @@
-//! The reference pages under `docs/reference` and the JSON Schemas under `docs/schema`, generated from the tables.
+//! The reference pages under `docs/reference` and the JSON Schemas of lessons under `docs/schema`, generated from the tables.
 //!
-//! `cargo run -p labspec-cli -- reference docs/reference` writes both; a test fails when they are stale.
+//! `cargo run -p labspec-cli -- reference docs/reference` writes both, with the schemas of reports; tests fail when they are stale.
 
 use crate::bind::{functions, named_field as by_name};
 use crate::rules;

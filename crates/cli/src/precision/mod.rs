@@ -20,6 +20,7 @@ use labspec::verify::significant;
 use labspec_numerics::precision::{
     OtherRecording, PrecisionOptions, PrecisionResults, RunStatus, VariedSetting, compare, milliseconds,
 };
+pub(super) use machine::PrecisionReport;
 use machine::{csv, machine};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};

@@ -1,161 +1,266 @@
 //! The output of `labspec stability` for programs.
 
-use super::super::report_json::{NonFinite, nonfinite, with_nonfinite};
+use super::super::report_json::{NonFinite, WithNonfinite, nonfinite, with_nonfinite};
+use super::super::schema_words::{AnyNumber, Cell, ControlValue, FINE, UNKNOWN, WordOf};
 use super::describe_skipped;
 use labspec::bind::Programs;
 use labspec::report::key;
-use labspec::stress::{Action, Fault, Interaction, InteractionKind};
+use labspec::stress::{Action, Fault, FaultKind, Interaction, InteractionKind};
 use labspec_numerics::stability::{
-    DivergenceOfStarts, MapCell, Margin, Sensitivity, StabilityFinding, StabilityMap, StressReport,
+    DivergenceOfStarts, MapCell, Margin, ParameterKind, Sensitivity, StabilityFinding, StabilityMap,
+    StressReport,
 };
+use schemars::JsonSchema;
 use serde::Serialize;
-use serde_json::{Map, Value};
+use serde_json::Value;
 
-/// The performed runs and the results. Times are in s.
-#[derive(Serialize)]
+/// What goes wrong when a student does whatever can be done to a lab.
+#[derive(Serialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
-pub(super) struct StabilityReport<'a> {
+pub(in super::super) struct StabilityReport<'a> {
+    /// How long a run is, in seconds of simulation.
     length: f64,
+    /// How many runs of each kind there are.
     tried: Vec<CountRow>,
+    /// The runs that were begun.
     runs: Vec<StabilityRunRow<'a>>,
+    /// How long the shortest of the runs was that were cut, in seconds; null where none was.
     shortest: Option<f64>,
+    /// Pairs of settings that meet in no run, because there are too many.
     #[serde(rename = "pairsLeftOut")]
     skipped_pairs: usize,
+    /// Everything that was not tried, in words.
     #[serde(rename = "leftOut")]
     skipped: Vec<String>,
+    /// What goes wrong, the simplest setting first.
     findings: Vec<StabilityFindingRow<'a>>,
+    /// How long a student looks, in seconds: margins and sensitivity are of runs of this length.
     window: f64,
+    /// How far everything may be raised before the lab breaks; empty without --margins.
     margins: Vec<MarginRow<'a>>,
+    /// How much the lab depends on its start, as it stands.
     sensitivity: SensitivityRow<'a>,
+    /// The stable region over two controls; null without --map.
     map: Option<MapRow<'a>>,
+    /// Work of all runs as the engine counts it, in units of about a nanosecond: the same on every machine.
     work: u64,
+    /// Everything was tried, and nothing unexpected goes wrong.
     fine: bool,
 }
 
-#[derive(Serialize)]
+/// A kind of runs.
+#[derive(Serialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
 struct CountRow {
+    /// What is done in them.
+    #[schemars(with = "WordOf<InteractionKind>")]
     kind: String,
+    /// Runs that were made to their end, or until they broke.
     made: usize,
+    /// Runs that took more work than they may, and ended before.
     cut: usize,
+    /// Runs that were not begun.
     #[serde(rename = "leftOut")]
     skipped: usize,
 }
 
-#[derive(Serialize)]
+/// A run.
+#[derive(Serialize, JsonSchema)]
+#[schemars(rename = "run")]
 struct StabilityRunRow<'a> {
+    /// What is done in it.
+    #[schemars(with = "WordOf<InteractionKind>")]
     kind: String,
+    /// What a student does, in order; empty for the lab as it stands, and for a touch that nobody sees (touched).
     setting: Vec<ActionRow<'a>>,
+    /// How much of it was made, in seconds.
     covered: f64,
+    /// It took more work than it may.
     cut: bool,
+    /// What goes wrong in it, each kind once.
+    #[schemars(with = "Vec<WordOf<FaultKind>>")]
     wrong: Vec<String>,
 }
 
-/// An action of a student: a control changed, or a button pressed.
-#[derive(Serialize)]
+/// A control is moved, or a button is pressed.
+#[derive(Serialize, JsonSchema)]
 struct ActionRow<'a> {
+    /// Its label.
     control: &'a str,
+    /// When, in seconds; 0 is before the first step.
     time: f64,
+    /// What it is set to; null for a press.
+    #[schemars(with = "Option<ControlValue>")]
     value: Option<Value>,
 }
 
-#[derive(Serialize)]
+/// Something that goes wrong in a setting.
+#[derive(Serialize, JsonSchema)]
 struct FaultRow<'a> {
+    /// What goes wrong.
+    #[schemars(with = "WordOf<FaultKind>")]
     kind: String,
+    /// When, in seconds of the lab's clock.
     time: f64,
+    /// The joint, the body, or the two that touch, in words.
     who: &'a str,
+    /// Why, as far as that is known, in words.
     cause: &'a str,
+    /// The numbers that show it.
     evidence: Vec<EvidenceRow>,
+    /// What a student does, in order; empty for the lab as it stands, and for a touch that nobody sees (touched).
     setting: Vec<ActionRow<'a>>,
 }
 
-#[derive(Serialize)]
+/// A number.
+#[derive(Serialize, JsonSchema)]
 struct EvidenceRow {
+    /// What it is, in words.
     name: &'static str,
+    /// The number.
+    #[schemars(with = "AnyNumber")]
     value: f64,
     #[serde(skip_serializing_if = "NonFinite::is_empty")]
     nonfinite: NonFinite,
+    /// Its unit; empty for a share or a count.
     unit: &'static str,
 }
 
-#[derive(Serialize)]
+/// Something that goes wrong, in one or several settings.
+#[derive(Serialize, JsonSchema)]
+#[schemars(rename = "finding")]
 struct StabilityFindingRow<'a> {
     #[serde(flatten)]
     fault: FaultRow<'a>,
+    /// It takes a touch that nobody sees, a speed of 1e-6 of every joint at the start.
     touched: bool,
+    /// How many settings show it.
+    #[schemars(range(min = 1))]
     settings: usize,
+    /// The lab itself says that it breaks.
     expected: bool,
-    remedies: Vec<Map<String, Value>>,
+    /// What was tried and helps in this setting.
+    remedies: Vec<WithNonfinite<RemedyRow<'a>>>,
+    /// The setting in which it is the worst, where that is another one.
     worst: Option<FaultRow<'a>>,
 }
 
-/// A remedy: its cost relative to that of the unchanged lab, and its error as a share of a range.
-#[derive(Serialize)]
+/// A change with which the run comes to its end well.
+#[derive(Serialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
 struct RemedyRow<'a> {
+    /// What to change, in words.
     change: &'a str,
+    /// What a second of simulation costs with it, in times of what it costs in the lab as it stands.
+    #[schemars(with = "AnyNumber")]
     work: f64,
+    /// The same as measured by a clock.
+    #[schemars(with = "AnyNumber")]
     time_ratio: f64,
+    /// The largest error of any number that the lab shows with it, as a part of that number's range, against the motion that the model
+    /// describes (found with much shorter steps); null where that is not known.
     error: Option<f64>,
 }
 
-/// How far a parameter can be raised, in its unit.
-#[derive(Serialize)]
+/// Something that was multiplied until the lab broke.
+#[derive(Serialize, JsonSchema)]
 struct MarginRow<'a> {
+    /// What was raised.
+    #[schemars(extend("enum" = ParameterKind::ALL.map(|kind| key(kind.description()))))]
     knob: String,
+    /// Of what, in words.
     who: &'a str,
+    /// Its unit; empty where it differs from joint to joint, or for a ratio.
     unit: &'static str,
+    /// The value that the lab has.
     #[serde(rename = "now")]
     current: f64,
+    /// The largest value that was fine; null where even the smallest one tried breaks.
     largest: Option<f64>,
+    /// The smallest value above it that breaks; null where nothing did.
     breaks: Option<f64>,
+    /// What goes wrong there.
     how: Option<BreakRow<'a>>,
+    /// The bound that theory gives for one degree of freedom; null without one.
     bound: Option<f64>,
+    /// How many runs it took.
+    #[schemars(range(min = 1))]
     runs: usize,
+    /// Of the stiffness of all contacts, the geoms that touch.
     geoms: &'a [usize],
 }
 
-#[derive(Serialize)]
+/// What goes wrong at a value.
+#[derive(Serialize, JsonSchema)]
 struct BreakRow<'a> {
+    /// What goes wrong.
+    #[schemars(with = "WordOf<FaultKind>")]
     kind: String,
+    /// The joint, the body, or the two that touch, in words.
     who: &'a str,
 }
 
-#[derive(Serialize)]
+/// How much the lab depends on its start, as it stands.
+#[derive(Serialize, JsonSchema)]
 struct SensitivityRow<'a> {
+    /// Over how long, in seconds.
     length: f64,
+    /// How far the other start is off, in the unit of each coordinate.
     #[serde(rename = "apart")]
     distance: f64,
-    parting: Option<Map<String, Value>>,
+    /// How many times as large a small difference at the start is at the end; null where nothing moves or the lab does not come to its
+    /// end.
+    parting: Option<WithNonfinite<PartingRow>>,
+    /// The largest Lyapunov exponent, in 1/s; null where small differences do not grow exponentially.
     exponent: Option<ExponentRow>,
+    /// The readouts.
     horizons: Vec<HorizonRow<'a>>,
 }
 
-#[derive(Serialize)]
+/// How many times as large a small difference at the start is at the end.
+#[derive(Serialize, JsonSchema)]
 struct PartingRow {
+    /// Along the direction that grows least.
+    #[schemars(with = "AnyNumber")]
     low: f64,
+    /// Along the direction that grows most.
+    #[schemars(with = "AnyNumber")]
     high: f64,
 }
 
-/// Lyapunov exponents in 1/s.
-#[derive(Serialize)]
+/// The largest Lyapunov exponent, in 1/s.
+#[derive(Serialize, JsonSchema)]
 struct ExponentRow {
+    /// The mean of several directions.
     mean: f64,
+    /// The smallest of them.
     low: f64,
+    /// The largest of them.
     high: f64,
+    /// How many directions there are.
+    #[schemars(range(min = 1))]
     directions: usize,
 }
 
-#[derive(Serialize)]
+/// A readout.
+#[derive(Serialize, JsonSchema)]
 struct HorizonRow<'a> {
+    /// Its label.
     label: &'a str,
+    /// When it begins to show other digits, in seconds; null where it does not.
     until: Option<f64>,
 }
 
-#[derive(Serialize)]
+/// The stable region over two controls.
+#[derive(Serialize, JsonSchema)]
 struct MapRow<'a> {
+    /// Labels of the control to the right and of the one upwards.
     controls: &'a [String; 2],
+    /// Their values.
+    #[schemars(with = "Vec<Vec<ControlValue>>")]
     values: Vec<Vec<Value>>,
+    /// A row for each value of the second control, and in it a cell for each of the first: what goes wrong there, fine, or unknown.
+    #[schemars(with = "Vec<Vec<WordOf<Cell>>>")]
     cells: Vec<Vec<String>>,
 }
 
@@ -258,9 +363,9 @@ fn sensitivity_row(s: &Sensitivity) -> SensitivityRow<'_> {
 
 fn map_row(map: &StabilityMap) -> MapRow<'_> {
     let cell = |c: &MapCell| match c {
-        MapCell::Fine => "fine".to_string(),
+        MapCell::Fine => FINE.to_string(),
         MapCell::Broken(kind) => key(kind.description()),
-        MapCell::Unknown => "unknown".to_string(),
+        MapCell::Unknown => UNKNOWN.to_string(),
     };
     MapRow {
         controls: &map.labels,

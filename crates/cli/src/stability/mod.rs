@@ -19,6 +19,7 @@ use labspec_numerics::stability::{
     MapCell, Margin, Sensitivity, StabilityFinding, StabilityMap, StressOptions, StressReport, probe,
 };
 use labspec_plot::{Cells, cells};
+pub(super) use machine::StabilityReport;
 use machine::machine;
 use std::fmt::Write;
 use std::path::PathBuf;

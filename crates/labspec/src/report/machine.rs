@@ -1,8 +1,12 @@
 //! JSON reports for editors and pipelines: their common parts. The reference is `docs/reports.md`, and `docs/schema`
 //! contains a JSON Schema of each report.
 
+#[cfg(feature = "report")]
+use super::schema_parts::PartOf;
 use super::{Summary, file_of};
 use crate::finding::Finding;
+#[cfg(feature = "report")]
+use crate::finding::{Applicability, Severity};
 use crate::json::to_value;
 use crate::source::{EditorPosition, SourceFile};
 use serde::Serialize;
@@ -50,37 +54,58 @@ pub fn json(findings: &[Finding], files: &[&SourceFile]) -> Value {
     to_value(&Findings { findings: rows, summary: Summary::count(findings) })
 }
 
-/// A finding in a report.
+/// One thing that is wrong or doubtful.
 #[derive(Serialize)]
-pub(super) struct FindingRow<'a> {
+#[cfg_attr(feature = "report", derive(schemars::JsonSchema))]
+pub struct FindingRow<'a> {
+    /// The rule's code; `labspec explain CODE` says more.
     code: &'a str,
+    /// How bad it is.
+    #[cfg_attr(feature = "report", schemars(extend("enum" = Severity::ALL.map(Severity::as_str))))]
     severity: &'a str,
     #[serde(flatten)]
+    #[cfg_attr(feature = "report", schemars(with = "PartOf<PlaceFields<'static>>"))]
     place: PlaceFields<'a>,
+    /// What is wrong.
     message: &'a str,
+    /// Why it matters; null when the message says it all.
     why: Option<&'a str>,
+    /// What to write instead.
     help: Option<&'a str>,
+    /// How to repair it; null when only its author can.
     fix: Option<FixRow<'a>>,
+    /// Other places that help to understand it.
     related: Vec<RelatedRow<'a>>,
 }
 
+/// A replacement that a program may apply.
 #[derive(Serialize)]
+#[cfg_attr(feature = "report", derive(schemars::JsonSchema))]
 struct FixRow<'a> {
+    /// What to write at this place.
     text: &'a str,
+    /// Who may do it: `safe`, any program; `unsafe`, a program that was told to, as it is a guess; `display`, only the author.
+    #[cfg_attr(feature = "report", schemars(extend("enum" = Applicability::ALL.map(Applicability::as_str))))]
     applicability: &'a str,
     #[serde(flatten)]
+    #[cfg_attr(feature = "report", schemars(with = "PartOf<PlaceFields<'static>>"))]
     place: PlaceFields<'a>,
 }
 
+/// Another place.
 #[derive(Serialize)]
+#[cfg_attr(feature = "report", derive(schemars::JsonSchema))]
 struct RelatedRow<'a> {
+    /// What is there.
     message: &'a str,
     #[serde(flatten)]
+    #[cfg_attr(feature = "report", schemars(with = "PartOf<PlaceFields<'static>>"))]
     place: PlaceFields<'a>,
 }
 
 impl<'a> FindingRow<'a> {
-    pub(super) fn new(f: &'a Finding, files: &[&SourceFile]) -> FindingRow<'a> {
+    /// The row of a finding. If its file is not among `files`, its positions are `null`.
+    pub fn new(f: &'a Finding, files: &[&SourceFile]) -> FindingRow<'a> {
         FindingRow {
             code: f.code,
             severity: f.severity.as_str(),
@@ -100,25 +125,52 @@ impl<'a> FindingRow<'a> {
     }
 }
 
-/// The format of locations in all reports: the file; byte offsets; lines and columns from 1, columns in characters; and the
-/// range in editor coordinates. An end is after the last character. If the file is not available, everything except the
-/// path is `null`.
+/// A place in a file. Of a file that could not be read everything but its path is null.
+///
+/// All reports have places in this form.
 #[derive(Default, Serialize)]
 #[serde(rename_all = "camelCase")]
+#[cfg_attr(feature = "report", derive(schemars::JsonSchema), schemars(rename = "place"))]
 pub struct PlaceFields<'a> {
+    /// The file, as it was named on the command line or found from there.
     file: &'a str,
+    /// Bytes of the file before the place.
     start: Option<usize>,
+    /// Bytes of the file up to the end of the place.
     end: Option<usize>,
+    /// Line of the start, from 1.
+    #[cfg_attr(feature = "report", schemars(range(min = 1)))]
     line: Option<usize>,
+    /// Column of the start in characters, from 1.
+    #[cfg_attr(feature = "report", schemars(range(min = 1)))]
     column: Option<usize>,
+    /// Line of the end, from 1.
+    #[cfg_attr(feature = "report", schemars(range(min = 1)))]
     end_line: Option<usize>,
+    /// Column behind the last character, from 1.
+    #[cfg_attr(feature = "report", schemars(range(min = 1)))]
     end_column: Option<usize>,
-    range: Option<Range<EditorPlace>>,
+    /// The same as editors count it: a `Range` of the Language Server Protocol.
+    range: Option<EditorRange>,
 }
 
+/// From the first character to the place behind the last.
 #[derive(Serialize)]
+#[cfg_attr(feature = "report", derive(schemars::JsonSchema))]
+struct EditorRange {
+    /// The first character.
+    start: EditorPlace,
+    /// The place behind the last character.
+    end: EditorPlace,
+}
+
+/// A `Position` of the Language Server Protocol.
+#[derive(Serialize)]
+#[cfg_attr(feature = "report", derive(schemars::JsonSchema), schemars(rename = "position"))]
 struct EditorPlace {
+    /// Line, from 0.
     line: usize,
+    /// Units of UTF-16 before it on its line, from 0.
     character: usize,
 }
 
@@ -142,15 +194,8 @@ impl<'a> PlaceFields<'a> {
             column: Some(from.column),
             end_line: Some(to.line),
             end_column: Some(to.column),
-            range: Some(start..end),
+            range: Some(EditorRange { start, end }),
         }
-    }
-}
-
-/// Writes a location into an object, in the format of all reports.
-pub fn set_place(object: &mut Value, files: &[&SourceFile], path: &str, span: &Range<usize>) {
-    for (key, value) in to_value(&PlaceFields::new(files, path, span)).as_object().into_iter().flatten() {
-        object[key] = value.clone();
     }
 }
 
@@ -201,10 +246,9 @@ mod tests {
     #[test]
     fn a_place_has_all_its_forms() {
         let file = SourceFile::new("a.md", "\u{feff}one\r\n\"𝄞ä\" x");
-        let mut value = json!({});
         // From the clef to the end of `x`, and from inside the clef.
         for span in [9..17, 10..17] {
-            set_place(&mut value, &[&file], "a.md", &span);
+            let value = to_value(&PlaceFields::new(&[&file], "a.md", &span));
             let expected = json!({
                 "file": "a.md", "start": 9, "end": 17, "line": 2, "column": 2, "endLine": 2, "endColumn": 6,
                 "range": {"start": {"line": 1, "character": 1}, "end": {"line": 1, "character": 6}},
@@ -212,7 +256,7 @@ mod tests {
             assert_eq!(value, expected);
             assert_eq!(value.to_string(), expected.to_string());
         }
-        set_place(&mut value, &[&file], "b.md", &(0..1));
+        let value = to_value(&PlaceFields::new(&[&file], "b.md", &(0..1)));
         assert_eq!(
             (&value["file"], &value["start"], &value["range"]),
             (&json!("b.md"), &Value::Null, &Value::Null)

@@ -9,6 +9,8 @@ mod human;
 mod machine;
 #[cfg(feature = "report")]
 mod sarif;
+#[cfg(feature = "report")]
+mod schema_parts;
 mod table;
 #[cfg(feature = "report")]
 pub mod uri;
@@ -20,11 +22,15 @@ pub use formats::{concise, github, gitlab, jsonl, junit, statistics};
 #[cfg(feature = "report")]
 pub use human::human;
 pub use machine::{
-    PlaceFields, SCHEMA_VERSION, json, key, nonfinite, report, set_number, set_numbers, set_place,
+    FindingRow, PlaceFields, SCHEMA_VERSION, json, key, nonfinite, report, set_number, set_numbers,
 };
 #[cfg(feature = "report")]
 pub use sarif::{page, sarif};
-pub use table::number_in_table;
+#[cfg(feature = "report")]
+pub use schema_parts::{NonfiniteEntries, NonfiniteName, PartOf};
+#[cfg(feature = "report")]
+pub use table::RunReport;
+pub use table::{TableReport, number_in_table};
 
 use crate::finding::{Finding, Severity};
 use crate::source::SourceFile;

@@ -4,17 +4,24 @@
 //! Every number is written so that reading it gives the same bits. A column of JSON has values of one type. For a number
 //! that JSON cannot represent it has `null`, and the list `nonfinite` contains the number.
 
+#[cfg(feature = "report")]
+use super::schema_parts::NonfiniteName;
 use super::{SCHEMA_VERSION, nonfinite};
 use crate::printable::printable_json;
 use crate::run::{Cell, Table};
 use labspec_expr::Value;
 use serde::{Serialize, Serializer};
 use serde_json::ser::Formatter;
+#[cfg(feature = "report")]
+use std::collections::BTreeMap;
 use std::io::{self, Write};
+#[cfg(feature = "report")]
+use std::num::NonZeroUsize;
 
 /// The type of the cells of a column, ignoring empty ones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
+#[cfg_attr(feature = "report", derive(schemars::JsonSchema))]
 enum CellType {
     Number,
     Boolean,
@@ -53,41 +60,91 @@ pub fn number_in_table(x: f64) -> String {
     if x == 0.0 && x.is_sign_negative() { "-0".into() } else { Value::Number(x).to_string() }
 }
 
-/// The report `run`. Its rows and its list of nonfinite cells are written without copying them.
+/// The samples of a run: one row for each sample, one column for time, every trace and every readout.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
-struct TableReport<'t, R: Serialize, N: Serialize> {
+#[cfg_attr(feature = "report", derive(schemars::JsonSchema))]
+pub struct TableReport<'t, R: Serialize, N: Serialize> {
     schema_version: u32,
     report: &'t str,
+    /// The program that wrote it.
     version: &'t str,
+    /// The length of a step in seconds, at the end of the run.
+    #[cfg_attr(feature = "report", schemars(with = "Option<f64>"))]
     timestep: f64,
+    /// Names of the columns: `time`, `plot/0/LABEL` of the first plot, …, `readout/LABEL`.
     columns: &'t [String],
+    /// What each column holds besides null. Values of several types in one column are written as texts.
     types: &'t [CellType],
+    // Written without copying them.
+    /// The samples. An entry is null where an expression gave nothing or threw, and where a number is none (see `nonfinite`).
+    #[cfg_attr(feature = "report", schemars(with = "Vec<Vec<WrittenCell>>"))]
     rows: R,
+    /// Warnings of the engine since its last reset, by MuJoCo's name, with how often each was raised.
     #[serde(serialize_with = "as_object")]
+    #[cfg_attr(feature = "report", schemars(with = "BTreeMap<String, NonZeroUsize>"))]
     warnings: &'t [(&'t str, usize)],
+    /// What threw, and why a run ended early.
     errors: &'t [String],
+    /// The worst that broke; null when nothing did.
     breakdown: Option<&'t BreakdownRow<'t>>,
+    /// Everything that broke, the worst first.
     breakdowns: &'t [BreakdownRow<'t>],
+    /// What those numbers are that are null. Absent when every number is one.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "report", schemars(with = "NonfiniteCells<'t, N>"))]
     nonfinite: Option<NonfiniteCells<'t, N>>,
 }
 
+/// The report `run`, as the type that its schema is derived from.
+#[cfg(feature = "report")]
+pub type RunReport = TableReport<'static, (), ()>;
+
+/// What broke.
 #[derive(Serialize)]
+#[cfg_attr(feature = "report", derive(schemars::JsonSchema))]
 struct BreakdownRow<'t> {
+    /// The code of the finding.
     code: &'t str,
+    /// What is no number, what grows, passes or sinks, and when.
     what: &'t str,
+    /// What the page shows.
     why: &'t str,
+    /// The likely cause and what to change.
     help: String,
 }
 
 /// The numbers that JSON cannot represent.
 #[derive(Serialize)]
+#[cfg_attr(feature = "report", derive(schemars::JsonSchema))]
 struct NonfiniteCells<'t, N: Serialize> {
+    /// The name of the timestep.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "report", schemars(with = "NonfiniteName"))]
     timestep: Option<&'t str>,
+    /// Row, column (both from 0) and what the number there was.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "report", schemars(with = "Vec<(usize, usize, NonfiniteName)>"))]
     rows: Option<N>,
+}
+
+/// A cell as it is written.
+#[cfg(feature = "report")]
+struct WrittenCell;
+
+#[cfg(feature = "report")]
+impl schemars::JsonSchema for WrittenCell {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "cell".into()
+    }
+
+    fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        schemars::json_schema!({"type": ["number", "boolean", "string", "null"]})
+    }
 }
 
 /// A list that is generated while it is written.

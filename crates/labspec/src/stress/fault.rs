@@ -34,6 +34,22 @@ pub enum FaultKind {
 }
 
 impl FaultKind {
+    /// Every kind.
+    pub const ALL: [FaultKind; 12] = [
+        FaultKind::Diverges,
+        FaultKind::Warns,
+        FaultKind::Grows,
+        FaultKind::Silent,
+        FaultKind::PastLimit,
+        FaultKind::Tunnels,
+        FaultKind::Sinks,
+        FaultKind::Unsolved,
+        FaultKind::Penetrates,
+        FaultKind::Chatters,
+        FaultKind::Drifts,
+        FaultKind::Throws,
+    ];
+
     /// The kind as a heading.
     pub fn description(self) -> &'static str {
         match self {

@@ -47,7 +47,10 @@ impl Quote {
         }
     }
 
-    /// The verdict as one word.
+    /// Every verdict of a quote.
+    pub const VERDICTS: [&'static str; 4] = ["verified", "computed", "refuted", "failed"];
+
+    /// The verdict as one word, one of [`Quote::VERDICTS`].
     pub fn verdict(&self) -> &'static str {
         match (self.state, self.evidence) {
             (QuoteState::Right, Evidence::Simulated) => "verified",

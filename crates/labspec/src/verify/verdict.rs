@@ -25,6 +25,17 @@ pub enum Verdict {
 }
 
 impl Verdict {
+    /// Every verdict.
+    pub const ALL: [Verdict; 7] = [
+        Verdict::Verified,
+        Verdict::Computed,
+        Verdict::Fragile,
+        Verdict::Ambiguous,
+        Verdict::Refuted,
+        Verdict::Failed,
+        Verdict::Unverified,
+    ];
+
     /// The verdict as one word.
     pub fn as_str(self) -> &'static str {
         match self {

@@ -16,6 +16,7 @@ use labspec_core::reflect::{FieldId, option};
 use labspec_core::{AccessSet, Model, Plan};
 use labspec_expr::dimension::Measure;
 use labspec_expr::{Compiler, Type, Value};
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::ops::ControlFlow;
 
@@ -55,12 +56,12 @@ impl DisplayPrecision {
     }
 }
 
-/// Something that is not compared, with the reason.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+/// A trace or a readout that is not compared.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct OmittedNumber {
     /// Its label.
     pub label: String,
-    /// The reason.
+    /// Why it is left out.
     pub reason: &'static str,
 }
 

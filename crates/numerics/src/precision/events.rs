@@ -7,6 +7,7 @@ use super::run_record::{RecordRequest, SampledRun};
 use super::setting::Setting;
 use labspec::run::RunError;
 use labspec_core::integrator;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// The distance of nearby starts, and the part of its range by which a number counts as different.
@@ -24,13 +25,17 @@ pub struct Event {
     pub uncertain: f64,
 }
 
-/// Two runs with indistinguishable starts.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+/// How long two starts that nobody could tell apart show the same.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct NearbyStarts {
-    /// The distance of the starts, in the unit of each coordinate.
+    /// How far apart the starts are.
+    ///
+    /// In the unit of each coordinate.
     #[serde(rename = "apart")]
     pub distance: f64,
-    /// The time until which all numbers agree within a hundredth of their ranges, s; `None` if they agree to the end.
+    /// Until when they show the same, in seconds; null where they do to the end.
+    ///
+    /// The same: all numbers agree within a hundredth of their ranges.
     pub until: Option<f64>,
 }
 

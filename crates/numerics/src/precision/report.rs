@@ -9,6 +9,7 @@ use super::run_record::RunStatus;
 use super::setting::{Setting, VariedSetting};
 use labspec::run::Integrator;
 use labspec_expr::Value;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// The settings to compare, and the interactions during the runs.
@@ -92,13 +93,13 @@ pub struct PrecisionResults {
     pub beside: Option<Beside>,
 }
 
-/// A recommendation in one sentence, with the row to which it refers.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+/// A recommendation in one sentence.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Advice {
     /// The kind of recommendation.
     #[serde(skip)]
     pub kind: AdviceKind,
-    /// The row.
+    /// The row that it is about.
     pub row: usize,
     /// The sentence.
     pub text: String,

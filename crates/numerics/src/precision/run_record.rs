@@ -85,6 +85,10 @@ pub enum RunStatus {
 }
 
 impl RunStatus {
+    /// Every status.
+    pub const ALL: [RunStatus; 5] =
+        [RunStatus::Good, RunStatus::Diverged, RunStatus::Grows, RunStatus::Warned, RunStatus::Stopped];
+
     /// The status in words.
     pub fn word(self) -> &'static str {
         match self {

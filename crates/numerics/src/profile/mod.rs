@@ -9,5 +9,5 @@ mod start;
 
 pub use measure::{REPEATS, StageCost, StepCost};
 pub use parts::{ConstraintCounts, EngineOption, PairSummary, SensorRow, TreeAlgorithmUse};
-pub use plan::{PlanOptions, PlanReport, StageRow, name, plan};
+pub use plan::{CONES, PlanOptions, PlanReport, StageRow, name, plan};
 pub use reader::ExtraReader;

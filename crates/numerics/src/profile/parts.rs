@@ -4,16 +4,17 @@
 use labspec::run::INTEGRATORS;
 use labspec_core::reflect::{Stage, data, option};
 use labspec_core::{self as core, AccessSet, Model, PairFilterReason, Plan, geom, solver};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// An algorithm of which a lab uses one or none.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct EngineOption {
     /// Its name.
     pub name: &'static str,
-    /// Whether it is used.
+    /// It is used.
     pub keep: bool,
-    /// The reason for or against its use.
+    /// Why, or why not.
     pub reason: String,
 }
 
@@ -30,13 +31,13 @@ pub struct TreeAlgorithmUse {
 }
 
 /// A sensor.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct SensorRow {
-    /// Its name, or its index if it has none.
+    /// Its name; its number where it has none.
     pub name: String,
-    /// Whether its values are computed.
+    /// Its values are computed.
     pub keep: bool,
-    /// The reason for or against the evaluation.
+    /// Why, or why not.
     pub reason: &'static str,
 }
 

@@ -61,6 +61,9 @@ pub struct PlanOptions {
     pub run: bool,
 }
 
+/// The friction cones, by the number of the option.
+pub const CONES: [&str; 2] = ["pyramidal", "elliptic"];
+
 /// Makes the plan report of a lab.
 ///
 /// # Errors
@@ -97,7 +100,7 @@ pub fn plan(
             false => "the program of the lab runs before every step",
         }),
         pairs: parts::pairs(&current, &plan, measured.as_ref().map(|m| m.seen)),
-        cone: if current.opt.cone == 0 { "pyramidal" } else { "elliptic" },
+        cone: CONES[usize::from(current.opt.cone != 0)],
         solvers: parts::solvers(&current, &plan),
         integrators: parts::integrators(&current, &access),
         tree_algorithms: parts::tree_algorithms(&current, &plan),

@@ -29,6 +29,10 @@ pub enum ParameterKind {
 }
 
 impl ParameterKind {
+    /// Every kind.
+    pub const ALL: [ParameterKind; 4] =
+        [ParameterKind::Timestep, ParameterKind::Gain, ParameterKind::Stiffness, ParameterKind::MassRatio];
+
     /// The parameter in words.
     pub fn description(self) -> &'static str {
         match self {

@@ -3,14 +3,15 @@
 use crate::spec::Verify;
 use serde::Serialize;
 
-/// Claims that a reference engine does not check, because they depend on runs other than the recorded ones.
+/// Claims that no judge is asked about, as they rest on other runs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "report", derive(schemars::JsonSchema), schemars(rename = "notJudged"))]
 pub struct Unjudged {
-    /// Searches: our own results are used.
+    /// Values of `find`: our own stay in their place.
     pub searches: usize,
-    /// Answers over a range: only their own runs are compared, not the other values of the range.
+    /// Answers with `over`: they are judged in their own runs, and nowhere else in the range.
     pub ranges: usize,
-    /// Closed forms of traces.
+    /// Closed forms of traces, of `exact`.
     #[serde(rename = "closedForms")]
     pub forms: usize,
 }
