@@ -111,14 +111,14 @@ fn entry<'a>(e: &'a Entry, sources: &[&SourceFile]) -> EntryRow<'a> {
 }
 
 #[derive(Serialize)]
-struct LessonRow<'a> {
+pub(super) struct LessonRow<'a> {
     file: &'a str,
     labs: Vec<LabRow<'a>>,
     claims: Vec<ClaimRow<'a>>,
     snapshots: Vec<SnapshotRow<'a>>,
 }
 
-fn lesson(c: &Checked) -> LessonRow<'_> {
+pub(super) fn lesson(c: &Checked) -> LessonRow<'_> {
     LessonRow {
         file: c.lesson.file.path(),
         labs: c.labs.iter().map(lab).collect(),

@@ -14,7 +14,7 @@ use serde_json::{Map, Value};
 /// The performed runs and the results. Times are in s.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
-pub(super) struct StabilityReport<'a> {
+pub(in super::super) struct StabilityReport<'a> {
     length: f64,
     tried: Vec<CountRow>,
     runs: Vec<StabilityRunRow<'a>>,
@@ -159,7 +159,7 @@ struct MapRow<'a> {
     cells: Vec<Vec<String>>,
 }
 
-pub(super) fn machine<'a>(report: &'a StressReport, programs: &'a Programs) -> StabilityReport<'a> {
+pub(in super::super) fn machine<'a>(report: &'a StressReport, programs: &'a Programs) -> StabilityReport<'a> {
     let tried = report.tried.iter().map(|t| CountRow {
         kind: key(t.kind.description()),
         made: t.made,
