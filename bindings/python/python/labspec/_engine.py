@@ -207,7 +207,8 @@ class Model(_Named):
 class Data(_Named):
     """A simulation of a model: its state and results. Fields with rows are NumPy arrays that show its memory."""
 
-    __slots__ = ("_model", "_native")
+    # Arrays that were taken once are attributes: the memory that they show stays where it is.
+    __slots__ = ("__dict__", "_model", "_native")
     _model: Model
     _native: _labspec.Data
 
@@ -250,12 +251,16 @@ class Data(_Named):
         The data get other memory: arrays that were taken before keep showing the data before.
         """
         self._native.restore(content)
+        self.__dict__.clear()
 
     def _object(self, kind: str, key: str | int) -> Any:
         return _Object(self, self._model, kind, key)
 
     def __getattr__(self, name: str) -> Any:
-        return self._native.field(name)
+        found = self._native.field(name)
+        if isinstance(found, np.ndarray) and isinstance(found.base, memoryview) and isinstance(found.base.obj, _labspec.FieldView):
+            self.__dict__[name] = found
+        return found
 
     def __setattr__(self, name: str, value: Any) -> None:
         self._native.set_field(name, np.asarray(value, float))
