@@ -53,6 +53,13 @@ def test_arrays_are_taken_once(data):
     assert data.ncon == 0 and data.time == 0 and not set(vars(data)) & {"ncon", "time"}
 
 
+def test_objects_have_whole_numbers(data):
+    assert data.body(np.int32(1)).name == "ball" and data.body(1).id == 1
+    for wrong, kind in ((3, IndexError), (-1, IndexError), (1.5, TypeError), (None, TypeError)):
+        with pytest.raises(kind):
+            data.body(wrong)
+
+
 def test_what_follows_from_other_fields_is_read_only(data):
     with pytest.raises(ValueError, match="read-only"):
         data.xpos[0, 0] = 1

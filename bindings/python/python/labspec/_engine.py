@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
+from operator import index
 from typing import Any
 
 import numpy as np
@@ -17,13 +18,16 @@ Files = Mapping[str, str] | str | os.PathLike[str] | None
 class _Object:
     """An object of a model, or its part of the data: ``data.body("cube").xpos``."""
 
-    __slots__ = ("_fields", "_kind", "_model", "_owner", "id", "name")
+    __slots__ = ("_fields", "_kind", "_model", "_owner", "id")
 
     def __init__(self, owner: Model | Data, model: Model, kind: str, key: str | int) -> None:
-        names = model._native.names(KINDS[kind][0])
-        at = model._native.id(KINDS[kind][0], key) if isinstance(key, str) else key
-        if not 0 <= at < len(names):
-            raise IndexError(f"the model has {len(names)} objects of the kind {kind}, counted from 0")
+        word, size = KINDS[kind]
+        if isinstance(key, str):
+            at = model._native.id(word, key)
+        else:
+            at, count = index(key), model._native.field(size)
+            if not 0 <= at < count:
+                raise IndexError(f"the model has {count} objects of the kind {kind}, counted from 0")
         fields = of_kind("data" if isinstance(owner, Data) else "model", kind)
         for name, value in (
             ("_fields", fields),
@@ -31,9 +35,13 @@ class _Object:
             ("_model", model),
             ("_owner", owner),
             ("id", at),
-            ("name", names[at]),
         ):
             object.__setattr__(self, name, value)
+
+    @property
+    def name(self) -> str:
+        """The name of the object."""
+        return self._model._native.names(KINDS[self._kind][0])[self.id]
 
     def _rows(self, attribute: str) -> tuple[str, int | slice]:
         found = self._fields.get(attribute)
