@@ -134,3 +134,20 @@ lab.stability(until=1e4, margins=True)
     os.kill(child.pid, signal.SIGINT)
     assert child.wait(timeout=20) != 0 and time.monotonic() - begin < 10
     assert "KeyboardInterrupt" in child.stderr.read()
+
+
+def test_a_lab_without_a_lesson_verifies_its_claims(tmp_path):
+    lab = {
+        "xml": "<mujoco><option integrator='RK4'/><worldbody><body pos='0 0 1'><freejoint/><geom size='0.1'/></body></worldbody></mujoco>",
+        "stopAt": 1,
+        "plots": [{"traces": [{"label": "ball", "expr": "data.qpos[2]"}]}],
+        "verify": {"exact": {"ball": "1 - 0.5 * 9.81 * data.time ** 2"}},
+    }
+    verified = labspec.Lab(lab).verify()
+    assert verified and [c.word for c in verified.claims if c.subject == "closed form"] == ["verified"]
+    refuted = labspec.Lab(lab).verify({"exact": {"ball": "1 - 0.5 * 9.8 * data.time ** 2"}})
+    assert not refuted and [f.code for f in refuted.findings] == ["closed-form-wrong"]
+    lesson = "".join(f"\n```lab\n{json.dumps({**lab, 'verify': {'exact': {'ball': text}}})}\n```\n" for text in ("1", "1 - 4.905 * data.time ** 2"))
+    path = tmp_path / "lesson.md"
+    path.write_text(lesson, encoding="utf-8")
+    assert [labspec.Lab(f"{path}#{number}").verify().outcome for number in (1, 2)] == ["findings", "clean"]

@@ -41,7 +41,8 @@ class _Object:
     @property
     def name(self) -> str:
         """The name of the object."""
-        return self._model._native.names(KINDS[self._kind][0])[self.id]
+        found: str = self._model._native.names(KINDS[self._kind][0])[self.id]
+        return found
 
     def _rows(self, attribute: str) -> tuple[str, int | slice]:
         found = self._fields.get(attribute)
