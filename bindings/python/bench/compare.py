@@ -150,6 +150,7 @@ def report(models: Path) -> str:
     texts = {name: (BALL if file is None else (models / f"{file}.xml").read_text(encoding="utf-8"), steps) for name, (file, steps) in SCENES.items()}
     heads = ["scene", "steps in one call: labspec, ns", "mujoco, ns", "times", "a call for each step: labspec, ns", "mujoco, ns", "times"]
     steps = table(heads, [stepping(name, *texts[name]) for name in texts])
+    note = "¹ The states at the end differ by more than 1e-3: the scene is chaotic, or a pile.\n\n" if "¹" in steps else ""
     labs = table(["scene", "labspec, ns", "mujoco, ns", "times"], [lab_steps(name, *texts[name]) for name in texts])
     other = table(["call", "labspec, ns", "mujoco, ns", "times"], calls(texts["27 boxes piled"][0]))
     imports = [f"{1e3 * import_time(module):.0f} ms" for module in ("labspec", "mujoco")]
@@ -160,13 +161,11 @@ The package `labspec` beside `mujoco` {mujoco.__version__}: the same models from
 
     PYTHON bindings/python/bench/compare.py --models ../shared/bench --out docs/measured/python.md
 
-with a release wheel. *Times* is how often labspec is as fast. All fields are computed in every step, as `mujoco` does.
+with a release wheel, on a machine that others used, too. *Times* is how often labspec is as fast. All fields are computed in every step, as `mujoco` does.
 
 {steps}
 
-¹ The states at the end differ by more than 1e-3: the scene is chaotic, or a pile.
-
-A lab computes only what its programs read. This one has a controller and a readout, and is recorded in one call (`lab.record`); a loop of `mujoco` reads the same number in each step:
+{note}A lab computes only what its programs read. This one has a controller and a readout, and is recorded in one call (`lab.record`); a loop of `mujoco` reads the same number in each step:
 
 {labs}
 
