@@ -17,7 +17,7 @@ use labspec_core::{self as core, AccessSet, Data, Plan};
 use labspec_expr::{Compiler, Context, FieldKey, FunctionId, Globals, Heap, Host, Program};
 use pyo3::exceptions::{PyIndexError, PyRuntimeError};
 use pyo3::prelude::*;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Mutex, MutexGuard, TryLockError};
 
 /// The work limit of one run of a program, in units of about a nanosecond.
@@ -33,6 +33,8 @@ struct MirroredWorld {
     mirror: BTreeMap<u32, Vec<f64>>,
     /// The pairs of geoms in contact in the other engine.
     contacts: Option<Vec<[i32; 2]>>,
+    /// The functions that programs have called to compute fields anew.
+    passes: BTreeSet<&'static str>,
 }
 
 /// Functions that compute fields anew.
@@ -76,6 +78,7 @@ impl Host for MirroredWorld {
         if computes_fields(name) {
             self.mirror.clear();
             self.contacts = None;
+            self.passes.insert(name);
         }
         result
     }
@@ -171,7 +174,7 @@ impl Evaluator {
             playback: None,
         };
         Ok(Evaluator(Mutex::new(State {
-            host: MirroredWorld { world, mirror: BTreeMap::new(), contacts: None },
+            host: MirroredWorld { world, mirror: BTreeMap::new(), contacts: None, passes: BTreeSet::new() },
             context: Context::for_globals(&programs.globals),
             globals: programs.globals.clone(),
             labels: verify::labels(&lab),
@@ -258,6 +261,11 @@ impl Evaluator {
     fn copy_contacts(&self, pairs: Vec<[i32; 2]>) -> PyResult<()> {
         self.lock()?.host.contacts = Some(pairs);
         Ok(())
+    }
+
+    /// The functions that programs have called to compute fields anew, such as "mj_setConst", since the last time.
+    fn take_passes(&self) -> PyResult<Vec<&'static str>> {
+        Ok(std::mem::take(&mut self.lock()?.host.passes).into_iter().collect())
     }
 
     /// A field of ours, after programs have written it.

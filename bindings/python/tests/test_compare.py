@@ -79,6 +79,19 @@ def test_the_steps_are_those_of_mujoco(mujoco):
     assert there.values() == [data.qpos[2]] and there["gravity"] == -5
 
 
+def test_programs_may_call_functions_of_the_engine():
+    controls = [
+        {"label": "mass", "apply": "model.body_mass[1] = value; mj.mj_setConst(model, data)", "min": 1, "max": 9, "step": 1, "value": 2, "reset": True},
+        {"type": "button", "label": "back", "run": "mj.mj_resetData(model, data); data.qpos[2] = 0.5; mj.mj_forward(model, data); ctx.top = data.body('ball').xpos[2]"},
+    ]
+    lab = labspec.Lab({**LAB, "controls": controls, "controller": "ctx.top = ctx.top || 0"})
+    measures = {"rest": "1e6 * final(data.qpos[2])", "mass": "final(model.body_subtreemass[0])", "weight": "final(model.body_invweight0[2])"}
+    measures |= {"time": "final(data.time)", "top": "final(ctx.top)", "force": "final(lib.normalForce('ball'))"}
+    compared = labspec.compare_engines(lab, measures, set={"mass": 7}, press=[("back", 0.3)])
+    assert compared, str(compared)
+    assert compared["mass"].other == 7 and compared["top"].other == 0.5
+
+
 def test_another_engine_is_noticed(monkeypatch):
     # An engine that falls faster.
     step = labspec.MujocoLab.step
@@ -102,7 +115,8 @@ def test_the_claims_of_a_lab_are_compared():
 
 def test_the_claims_of_a_lesson_are_compared():
     reported = []
-    compared = labspec.compare_engines(SPECS / "lessons/02-bounce-and-swing.md", progress=reported.append)
+    # Its sliders set masses, and the constants that follow from them.
+    compared = labspec.compare_engines(SPECS / "lessons/08-ropes-and-gears.md", progress=reported.append)
     assert len({row.owner for row in compared.rows}) > 3 and compared.verdicts > 10 and reported
     assert not compared.findings and not any(row.depends for row in compared.rows), str(compared)
 
@@ -130,6 +144,20 @@ def test_labs_of_the_corpus_do_not_depend_on_the_engine(name):
     measures |= {f"qpos[{i}]": f"final(data.qpos[{i}])" for i in range(int(lab.model.nq))}
     compared = labspec.compare_engines(lab, measures, until=0.5)
     assert compared.rows and not any(row.depends for row in compared.rows), str(compared)
+
+
+def test_a_run_that_breaks_is_broken_in_both(mujoco, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    lab = labspec.Lab({**LAB, "controller": "data.qfrc_applied[2] = data.time > 0.1 ? 1e30 : 0"})
+    there = labspec.MujocoLab(lab)
+    values = there.measure({"highest": "max(data.qpos[2])", "steps": "count(data.time < 0.003)"}, steps=200)
+    assert "a bad number" in there.broke and there.warnings > 0 and values["steps"] > 1
+    assert not list(tmp_path.iterdir()), "MuJoCo writes no log"
+    compared = labspec.compare_engines(lab, {"steps": "count(data.time < 0.003)"}, until=0.4)
+    assert compared["steps"].other == values["steps"] and compared["steps"].labspec == values["steps"]
+    frozen = labspec.MujocoLab(labspec.Lab({**LAB, "controller": "if (data.time > 0.1) { ctx.nothing.x = 1 }"}))
+    frozen.measure({"end": "final(data.time)"}, steps=200)
+    assert "the controller failed" in frozen.broke and frozen.time < 0.2
 
 
 def test_impossible_comparisons_are_refused():

@@ -149,6 +149,16 @@ class MujocoLab:
             self.data.qpos[:] += perturbation
             self._forward()
         pending = sorted(press, key=lambda one: one[1])
+        # Warnings are counted. MuJoCo would print them, too, and write a file into the current folder.
+        before = self._mujoco.get_mju_user_warning()
+        self._mujoco.set_mju_user_warning(lambda _text: None)
+        try:
+            self._play(running.values(), ends, steps, pending)
+        finally:
+            self._mujoco.set_mju_user_warning(before)
+        return {name: one.now() for name, one in running.items()}
+
+    def _play(self, running: Iterable[_Measure], ends: _Measure | None, steps: int, pending: list[tuple[str, float]]) -> None:
         for made in range(steps + 1):
             while pending and self.time >= pending[0][1] - 1e-12:
                 self.press(pending.pop(0)[0])
@@ -157,14 +167,13 @@ class MujocoLab:
                     self.step()
                 except LabspecError as e:
                     self.broke = self.broke or f"the controller failed: {e}"
-                    break
+                    return
             self._pull()
             self._programs.probes()
-            for one in running.values():
+            for one in running:
                 one.sample(self.time)
             if ends is not None and ends.now() == 1:
-                break
-        return {name: one.now() for name, one in running.items()}
+                return
 
     def compiles(self, text: str) -> None:
         """Refuses a measure that has errors, or an aggregate that is not evaluated here."""
@@ -200,20 +209,30 @@ class MujocoLab:
         self._programs.copy_contacts(np.column_stack([contact.geom1, contact.geom2]).tolist() if self.data.ncon else [])
 
     def _change(self, program: Callable[[], object]) -> None:
-        """Runs a program, and copies what it may have written."""
+        """Runs a program, and copies what it may have written. Functions that compute fields may write every field of the state, and the constants of the
+        model are computed by MuJoCo."""
         self._pull()
+        self._programs.take_passes()
         program()
-        for name in self._writes:
+        self._push(self._writes)
+        passes = self._programs.take_passes()
+        if "mj_setConst" in passes:
+            self._mujoco.mj_setConst(self.model, self.data)
+        if passes:
+            self._push([*(f"data.{name}" for name in self._state), *self._writes])
+
+    def _push(self, names: Iterable[str]) -> None:
+        """Copies fields to MuJoCo."""
+        for name in names:
             owner = self._owner(name)
             *parents, last = name.split(".")[1:]
             for parent in parents:
                 owner = getattr(owner, parent)
             values, now = self._programs.field(name), getattr(owner, last)
-            if isinstance(now, np.ndarray):
-                if now.size == values.size:
-                    now[...] = values.reshape(now.shape)
-            else:
+            if not isinstance(now, np.ndarray):
                 setattr(owner, last, type(now)(values[0]))
+            elif now.size == values.size:
+                now[...] = values.reshape(now.shape)
 
     def _forward(self) -> None:
         self._mujoco.mj_forward(self.model, self.data)
