@@ -83,3 +83,14 @@ def test_reports_are_tables():
 def test_a_broken_lab_still_displays():
     lab = labspec.Lab({**LAB, "controller": "data.qvel[data.time > 0.1 ? -1 : 0] = ctx.nothing.x"})
     assert "table" in tags(lab).found
+
+
+def test_labs_with_wrong_values_display_or_are_refused():
+    weird = [None, True, -1, 0, 1e308, 10**400, "5", [], {}, [[]], [{"window": 1e308, "traces": []}], [{"window": "x"}], [5]]
+    for key in ("plots", "stopAt", "readouts", "controls", "title", "kind", "note"):
+        for value in weird:
+            try:
+                lab = labspec.Lab({**LAB, key: value})
+            except labspec.LabspecError:
+                continue
+            tags(lab)

@@ -28,15 +28,12 @@ class _Object:
             at, count = index(key), model._native.field(size)
             if not 0 <= at < count:
                 raise IndexError(f"the model has {count} objects of the kind {kind}, counted from 0")
-        fields = of_kind("data" if isinstance(owner, Data) else "model", kind)
-        for name, value in (
-            ("_fields", fields),
-            ("_kind", kind),
-            ("_model", model),
-            ("_owner", owner),
-            ("id", at),
-        ):
-            object.__setattr__(self, name, value)
+        put = object.__setattr__
+        put(self, "_fields", of_kind("data" if owner is not model else "model", kind))
+        put(self, "_kind", kind)
+        put(self, "_model", model)
+        put(self, "_owner", owner)
+        put(self, "id", at)
 
     @property
     def name(self) -> str:

@@ -285,9 +285,11 @@ class Lab:
 
     def _watched(self) -> int:
         """The steps that a student watches: until ``stopAt``, or in the longest window of a plot."""
-        windows = [plot.get("window", 5) for plot in self.json.get("plots", ()) if isinstance(plot, dict)]
-        seconds = self.json.get("stopAt") or max((w for w in windows if isinstance(w, (int, float))), default=0)
-        return min(_MOST_DRAWN, max(0, round(seconds / self.timestep)))
+        source = self.json
+        plots = source.get("plots")
+        windows = [_seconds(plot.get("window", 5)) for plot in plots if isinstance(plot, dict)] if isinstance(plots, list) else []
+        seconds = _seconds(source.get("stopAt")) or max(windows, default=0.0)
+        return round(min(_MOST_DRAWN, seconds / self.timestep))
 
     def field(self, name: str) -> Any:
         """A field of the data or of the model as the lab changed it: "qpos", "body_mass", "opt.gravity". A copy."""
@@ -300,6 +302,15 @@ class Lab:
     def restore(self, state: _labspec.LabState) -> None:
         """Restores a state of this lab. It then continues with equal results, bit for bit."""
         self._native.restore(state)
+
+
+def _seconds(value: object) -> float:
+    """A time in a lab that anybody may have written; 0 if it is none."""
+    try:
+        seconds = float(value) if isinstance(value, (int, float)) else 0.0
+    except OverflowError:
+        return float("inf")
+    return seconds if seconds > 0 else 0.0
 
 
 def is_owned(owner: str | None, address: str | None) -> bool:

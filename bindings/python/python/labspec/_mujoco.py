@@ -332,11 +332,12 @@ def _of(owner: Any, name: str) -> Any:
 def _model(mujoco: Any, lab: Lab) -> Any:
     """The model of a lab, compiled by MuJoCo."""
     source, models = lab.json, lab._source[-1]
+    xml = source.get("xml")
     if isinstance(models, Mapping):
         texts = {(name if name.endswith(".xml") else f"{name}.xml"): text.encode() for name, text in models.items()}
-        return mujoco.MjModel.from_xml_string(source["xml"] if "xml" in source else models[source["model"]], texts)
-    if "xml" in source:
-        return mujoco.MjModel.from_xml_string(source["xml"], {} if models is None else files_of(source["xml"], Path(models)))
+        return mujoco.MjModel.from_xml_string(models[source["model"]] if xml is None else xml, texts)
+    if xml is not None:
+        return mujoco.MjModel.from_xml_string(xml, {} if models is None else files_of(xml, Path(models)))
     # The lab is open: the name is that of a model in this folder.
     return mujoco.MjModel.from_xml_path(os.fspath(Path(models) / f"{source['model']}.xml"))
 

@@ -52,6 +52,6 @@ def _models(lab: Lab) -> dict[str, str | bytes]:
         return {}
     folder, name = Path(given), source.get("model")
     if not isinstance(name, str):
-        return dict(files_of(source["xml"], folder))
+        return dict(files_of(source["xml"], folder)) if isinstance(source.get("xml"), str) else {}
     text = (folder / f"{name}.xml").read_text(encoding="utf-8")
     return {name: text, **files_of(text, folder)}

@@ -125,8 +125,8 @@ def _with_texts(lab: Lab, controls: list[dict[str, Any]], texts: Mapping[str, st
     """The lab with further controls and readouts."""
     source = lab.json
     readouts = [{"label": f"{_OWN}/{name}", "expr": text} for name, text in texts.items()]
-    source["controls"] = [*source.get("controls", ()), *controls]
-    source["readouts"] = [*source.get("readouts", ()), *readouts]
+    source["controls"] = [*(source.get("controls") or ()), *controls]
+    source["readouts"] = [*(source.get("readouts") or ()), *readouts]
     made = Lab(json.loads(json.dumps(source)), lab._source[-1])
     wrong = [f for f in made.findings if f.severity == "error"]
     if wrong:
