@@ -49,4 +49,6 @@ def test_files_outside_of_the_folder_are_not_sent(script, tmp_path):
     model = "<mujoco><!-- file='../secret.xml' --><worldbody><include file='part.xml'/></worldbody></mujoco>"
     (folder / "ball.xml").write_text(model, encoding="utf-8")
     widget = labspec.show(labspec.Lab({"model": "ball"}, folder), esm=script)
-    assert sorted(widget.models) == ["ball", "part.xml"] and b"mujocoinclude" in widget.models["part.xml"]
+    assert sorted(widget.models) == ["ball", "part"] and "mujocoinclude" in widget.models["part"]
+    opened = labspec.Lab({"model": "ball"}, widget.models)
+    assert opened.model.nbody == 2

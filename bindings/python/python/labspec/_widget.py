@@ -51,7 +51,19 @@ def _models(lab: Lab) -> dict[str, str | bytes]:
     if given is None:
         return {}
     folder, name = Path(given), source.get("model")
-    if not isinstance(name, str):
-        return dict(files_of(source["xml"], folder)) if isinstance(source.get("xml"), str) else {}
-    text = (folder / f"{name}.xml").read_text(encoding="utf-8")
-    return {name: text, **files_of(text, folder)}
+    if isinstance(name, str):
+        text = (folder / f"{name}.xml").read_text(encoding="utf-8")
+        return {name: text, **_by_name(files_of(text, folder))}
+    xml = source.get("xml")
+    return _by_name(files_of(xml, folder)) if isinstance(xml, str) else {}
+
+
+def _by_name(files: Mapping[str, bytes]) -> dict[str, str | bytes]:
+    """Files as a page takes them: MJCF by its name, without the extension, everything else by its path."""
+    found: dict[str, str | bytes] = {}
+    for path, content in files.items():
+        if path.endswith(".xml"):
+            found[path.removesuffix(".xml")] = content.decode("utf-8", "replace")
+        else:
+            found[path] = content
+    return found
