@@ -4,14 +4,17 @@ use crate::error::{error, refused};
 use crate::fields::copied;
 use crate::model::Model;
 use crate::models::models;
+use crate::numerics::control_value;
 use crate::report::finding_dict;
 use facade::player::{ControlKind, DisplayedIn, Saved};
-use facade::run::Cell;
+use facade::run::{Cell, Table};
 use facade::{Player, Value};
 use labspec_core::reflect::{self, Object};
 use labspec_core::{self as core};
 use labspec_finding::nearest;
-use pyo3::exceptions::{PyKeyError, PyRuntimeError, PyTypeError, PyValueError};
+use labspec_plot::line_chart;
+use pyo3::buffer::PyBuffer;
+use pyo3::exceptions::{PyKeyError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -183,16 +186,7 @@ impl Lab {
         if player.value(label).is_none() {
             return Err(unknown_control(&player, label));
         }
-        let value = if let Ok(b) = value.extract::<bool>() {
-            Value::Boolean(b)
-        } else if let Ok(x) = value.extract::<f64>() {
-            Value::Number(x)
-        } else if let Ok(text) = value.extract::<String>() {
-            Value::String(text.into())
-        } else {
-            return Err(PyTypeError::new_err("a control has a number, a text or a boolean"));
-        };
-        player.set(label, value).map_err(|e| refused(&e))
+        player.set(label, control_value(value)?).map_err(|e| refused(&e))
     }
 
     /// Presses a button.
@@ -273,6 +267,23 @@ impl Lab {
         Ok((made, copied(py, view, &shape)?))
     }
 
+    /// Draws the plots as `labspec run --svg` does. The rows are those of `record`, as 64-bit floats.
+    fn draw(&self, py: Python<'_>, rows: PyBuffer<f64>) -> PyResult<Vec<String>> {
+        let numbers = rows.to_vec(py)?;
+        let player = self.lock()?;
+        let table = table(&player, &numbers);
+        let plots = player.lab().plots.iter().enumerate();
+        let svg = plots.map(|(i, plot)| line_chart(&labspec_site::chart(player.lab(), plot, i, &table)));
+        Ok(svg.collect())
+    }
+
+    /// The title and the kind of the lab.
+    fn title(&self) -> PyResult<(String, String)> {
+        let player = self.lock()?;
+        let lab = player.lab();
+        Ok((lab.title().to_string(), lab.kind().to_string()))
+    }
+
     /// A field of the data ("qpos") or of the model as the lab changed it ("body_mass", "opt.gravity"): a copy, as after `mj_forward`.
     fn field<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
         let field = match name.split_once('.') {
@@ -313,6 +324,25 @@ impl Lab {
     fn restore(&self, state: &LabState) -> PyResult<()> {
         let saved = state.0.lock().unwrap_or_else(PoisonError::into_inner);
         self.lock()?.restore(&saved).map_err(|e| error("foreign-state", &e.to_string(), &[]))
+    }
+}
+
+/// The samples of a recording as the table of a run.
+fn table(player: &Player, numbers: &[f64]) -> Table {
+    let name = |value: &facade::player::DisplayedValue| match value.place {
+        DisplayedIn::Plot(plot) => format!("plot/{plot}/{}", value.label),
+        DisplayedIn::Readout(_) => format!("readout/{}", value.label),
+    };
+    let names = player.displayed().iter().map(name);
+    let columns: Vec<String> = std::iter::once("time".to_string()).chain(names).collect();
+    let cells = |row: &[f64]| row.iter().map(|x| Cell::Number(*x)).collect();
+    Table {
+        timestep: player.timestep(),
+        rows: numbers.chunks_exact(columns.len()).map(cells).collect(),
+        columns,
+        warnings: Vec::new(),
+        breakdowns: Vec::new(),
+        errors: Vec::new(),
     }
 }
 

@@ -3,27 +3,41 @@
 //! A thin layer over `labspec::Player`, `labspec::Checker` and the engine. Long calls release the interpreter. Fields are views of
 //! the memory of the engine, which keep their model or data alive ([`fields`]).
 
+mod background;
+mod cross_check;
 mod data;
 mod error;
+mod evaluator;
 mod fields;
 mod lab;
 mod model;
 mod models;
+mod numerics;
+mod program;
 mod report;
+mod source;
 mod sweep;
 
 #[pyo3::pymodule]
 mod _labspec {
     #[pymodule_export]
+    use crate::cross_check::{claimed_runs, cross_check};
+    #[pymodule_export]
     use crate::data::Data;
     #[pymodule_export]
     use crate::error::LabspecError;
+    #[pymodule_export]
+    use crate::evaluator::Evaluator;
     #[pymodule_export]
     use crate::fields::{FieldView, field_docs};
     #[pymodule_export]
     use crate::lab::{Lab, LabState};
     #[pymodule_export]
     use crate::model::Model;
+    #[pymodule_export]
+    use crate::numerics::{precision, stability};
+    #[pymodule_export]
+    use crate::program::run_program;
     #[pymodule_export]
     use crate::report::check;
     #[pymodule_export]

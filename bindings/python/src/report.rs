@@ -1,10 +1,12 @@
 //! Findings and claims of a check, as dictionaries, of which the package makes objects.
 
+use crate::background;
 use crate::models::models;
 use facade::Checker;
 use facade::check::CheckLevel;
 use facade::finding::Finding;
 use facade::ledger::Entry;
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use std::collections::BTreeMap;
@@ -39,24 +41,33 @@ fn claim_dict<'py>(py: Python<'py>, e: &Entry) -> PyResult<Bound<'py, PyDict>> {
     Ok(dict)
 }
 
-/// Checks a lesson: its outcome in a word, its findings and its claims. `path` names the file for messages, and its extension decides
-/// how it is read. `related` are the texts of other lessons by path. Without `runs`, nothing is simulated.
+/// The outcome in a word, the findings, the claims, and the JSON of the lesson as `labspec check --format json` prints it.
+type CheckResults<'py> = (&'static str, Bound<'py, PyList>, Bound<'py, PyList>, String);
+
+/// Checks a lesson. `path` names the file for messages, and its extension decides how it is read. `related` are the texts of other lessons
+/// by path. The level is "full", "claims" (only the claims are verified) or "static" (nothing is simulated).
 #[pyfunction]
-#[pyo3(signature = (path, text, models=None, related=None, runs=true))]
+#[pyo3(signature = (path, text, models=None, related=None, level="full", progress=None))]
 pub(crate) fn check<'py>(
     py: Python<'py>,
     path: &str,
     text: &str,
     models: Option<&Bound<'py, PyAny>>,
     related: Option<BTreeMap<String, String>>,
-    runs: bool,
-) -> PyResult<(&'static str, Bound<'py, PyList>, Bound<'py, PyList>)> {
-    let level = if runs { CheckLevel::FULL } else { CheckLevel::STATIC };
+    level: &str,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<CheckResults<'py>> {
+    let level = match level {
+        "full" => CheckLevel::FULL,
+        "claims" => CheckLevel::CLAIMS,
+        "static" => CheckLevel::STATIC,
+        other => return Err(PyValueError::new_err(format!("the level \"{other}\" is unknown"))),
+    };
     let mut checker = Checker::new(self::models(models)?).level(level);
     if let Some(texts) = related {
         checker = checker.neighbours(texts);
     }
-    let report = py.detach(|| checker.check(path, text));
+    let report = background::run(py, progress, |_| checker.check(path, text))?;
     let findings = PyList::empty(py);
     for finding in &report.findings {
         findings.append(finding_dict(py, finding)?)?;
@@ -65,5 +76,6 @@ pub(crate) fn check<'py>(
     for entry in report.entries() {
         claims.append(claim_dict(py, entry)?)?;
     }
-    Ok((report.outcome().as_str(), findings, claims))
+    let lesson = labspec_cli::lesson_report(&report.checked).to_string();
+    Ok((report.outcome().as_str(), findings, claims, lesson))
 }

@@ -38,6 +38,28 @@ def test_fields_show_memory(model, data):
     assert data.xpos.shape == (3, 3) and data.time > 0 and model.nq == 8
 
 
+def test_arrays_are_taken_once(data):
+    then = data.save()
+    qpos = data.qpos
+    assert data.qpos is qpos and data.xpos is data.xpos
+    data.step(3)
+    data.reset()
+    data.forward()
+    assert data.qpos is qpos and qpos[2] == 1
+    data.qpos = np.arange(8)
+    assert data.qpos is qpos and qpos[1] == 1
+    data.restore(then)
+    assert data.qpos is not qpos and data.qpos[2] == 1
+    assert data.ncon == 0 and data.time == 0 and not set(vars(data)) & {"ncon", "time"}
+
+
+def test_objects_have_whole_numbers(data):
+    assert data.body(np.int32(1)).name == "ball" and data.body(1).id == 1
+    for wrong, kind in ((3, IndexError), (-1, IndexError), (1.5, TypeError), (None, TypeError)):
+        with pytest.raises(kind):
+            data.body(wrong)
+
+
 def test_what_follows_from_other_fields_is_read_only(data):
     with pytest.raises(ValueError, match="read-only"):
         data.xpos[0, 0] = 1

@@ -14,9 +14,9 @@ use clap::{CommandFactory, Parser, Subcommand};
 use labspec::interrupt;
 use labspec::report::{printable_lines, printable_path};
 use labspec::threads;
+use std::ffi::OsString;
 use std::io::Write;
 use std::path::PathBuf;
-use std::process::ExitCode;
 use std::sync::LazyLock;
 
 /// The version, the build, and whose semantics the engine has, for `--version`.
@@ -92,26 +92,24 @@ enum Command {
     },
 }
 
-/// Runs the program with the arguments of the command line.
-pub(crate) fn run_program() -> ExitCode {
-    let cli = match Cli::try_parse() {
+/// Runs the program with the arguments of a command line, of which the first is the name of the program. Returns the exit code.
+pub fn run_program(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    let cli = match Cli::try_parse_from(arguments) {
         Ok(cli) => cli,
-        Err(e) => {
-            return usage(&e);
-        }
+        Err(e) => return usage(&e),
     };
     if cli.command.handles_interrupt() {
         listen();
     }
     // All work uses the same stack size, independent of that of the main thread.
     match threads::run(|| execute(&cli.command)) {
-        Ok(_) if interrupted() => ExitCode::from(130),
-        Ok(CommandOutcome::Clean) => ExitCode::SUCCESS,
-        Ok(CommandOutcome::Findings) => ExitCode::from(1),
-        Ok(CommandOutcome::Partial) => ExitCode::from(3),
+        Ok(_) if interrupted() => 130,
+        Ok(CommandOutcome::Clean) => 0,
+        Ok(CommandOutcome::Findings) => 1,
+        Ok(CommandOutcome::Partial) => 3,
         Err(message) => {
             print_error(&format!("labspec: {}\n", printable_lines(&message)));
-            ExitCode::from(if interrupted() { 130 } else { 2 })
+            if interrupted() { 130 } else { 2 }
         }
     }
 }
@@ -184,17 +182,17 @@ impl Command {
 }
 
 /// Prints the help or the version, which are not errors, or the error in the arguments.
-fn usage(e: &clap::Error) -> ExitCode {
+fn usage(e: &clap::Error) -> u8 {
     if e.use_stderr() {
         // An argument may be a file name that someone else chose.
         print_error(&printable_lines(&e.render().to_string()));
-        return ExitCode::from(2);
+        return 2;
     }
     match stdio::outcome(e.print().and_then(|()| std::io::stdout().flush())) {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(()) => 0,
         Err(message) => {
             print_error(&format!("labspec: {message}\n"));
-            ExitCode::from(2)
+            2
         }
     }
 }

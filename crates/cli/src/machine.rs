@@ -206,7 +206,7 @@ fn evidence_word(state: State) -> Option<&'static str> {
 
 /// A file.
 #[derive(Serialize, JsonSchema)]
-struct LessonRow<'a> {
+pub(super) struct LessonRow<'a> {
     /// Its path.
     file: &'a str,
     /// Its labs.
@@ -217,7 +217,7 @@ struct LessonRow<'a> {
     snapshots: Vec<SnapshotRow<'a>>,
 }
 
-fn lesson(c: &Checked) -> LessonRow<'_> {
+pub(super) fn lesson(c: &Checked) -> LessonRow<'_> {
     LessonRow {
         file: c.lesson.file.path(),
         labs: c.labs.iter().map(lab).collect(),

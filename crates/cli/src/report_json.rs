@@ -35,6 +35,11 @@ struct ReportHead {
     report: Value,
 }
 
+/// A report with its head, as a value.
+pub(super) fn versioned(name: &str, entries: &impl Serialize) -> Value {
+    report::to_value(&VersionedReport { schema_version: SCHEMA_VERSION, report: name, entries })
+}
+
 /// Prints a report.
 pub(super) fn print_report(name: &str, entries: &impl Serialize) -> Result<(), Failure> {
     print_json(&VersionedReport { schema_version: SCHEMA_VERSION, report: name, entries }, true)

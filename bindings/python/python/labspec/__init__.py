@@ -8,25 +8,44 @@
 0.8018
 """
 
-from ._check import Claim, Finding, Report, check
+from ._check import Claim, Finding, Measured, Report, Verification, check
+from ._compare import EngineComparison, EngineRow, compare_engines
+from ._designs import latin_hypercube, sobol
 from ._engine import Data, Model
 from ._lab import Control, Displayed, Lab, Recording
 from ._labspec import LabspecError, __VERSION__ as __version__
+from ._mujoco import MujocoLab
+from ._reports import Fault, Margin, Precision, PrecisionRow, Stability
 from ._sweep import Sweep, sweep
+from ._widget import show
 
 __all__ = [
     "Claim",
     "Control",
     "Data",
     "Displayed",
+    "EngineComparison",
+    "EngineRow",
+    "Fault",
     "Finding",
     "Lab",
     "LabspecError",
+    "Margin",
+    "Measured",
     "Model",
+    "MujocoLab",
+    "Precision",
+    "PrecisionRow",
     "Recording",
     "Report",
+    "Stability",
     "Sweep",
+    "Verification",
     "__version__",
     "check",
+    "compare_engines",
+    "latin_hypercube",
+    "show",
+    "sobol",
     "sweep",
 ]

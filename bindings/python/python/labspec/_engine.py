@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
+from operator import index
 from typing import Any
 
 import numpy as np
@@ -17,23 +18,28 @@ Files = Mapping[str, str] | str | os.PathLike[str] | None
 class _Object:
     """An object of a model, or its part of the data: ``data.body("cube").xpos``."""
 
-    __slots__ = ("_fields", "_kind", "_model", "_owner", "id", "name")
+    __slots__ = ("_fields", "_kind", "_model", "_owner", "id")
 
     def __init__(self, owner: Model | Data, model: Model, kind: str, key: str | int) -> None:
-        names = model._native.names(KINDS[kind][0])
-        at = model._native.id(KINDS[kind][0], key) if isinstance(key, str) else key
-        if not 0 <= at < len(names):
-            raise IndexError(f"the model has {len(names)} objects of the kind {kind}, counted from 0")
-        fields = of_kind("data" if isinstance(owner, Data) else "model", kind)
-        for name, value in (
-            ("_fields", fields),
-            ("_kind", kind),
-            ("_model", model),
-            ("_owner", owner),
-            ("id", at),
-            ("name", names[at]),
-        ):
-            object.__setattr__(self, name, value)
+        word, size = KINDS[kind]
+        if isinstance(key, str):
+            at = model._native.id(word, key)
+        else:
+            at, count = index(key), model._native.field(size)
+            if not 0 <= at < count:
+                raise IndexError(f"the model has {count} objects of the kind {kind}, counted from 0")
+        put = object.__setattr__
+        put(self, "_fields", of_kind("data" if owner is not model else "model", kind))
+        put(self, "_kind", kind)
+        put(self, "_model", model)
+        put(self, "_owner", owner)
+        put(self, "id", at)
+
+    @property
+    def name(self) -> str:
+        """The name of the object."""
+        found: str = self._model._native.names(KINDS[self._kind][0])[self.id]
+        return found
 
     def _rows(self, attribute: str) -> tuple[str, int | slice]:
         found = self._fields.get(attribute)
@@ -207,7 +213,8 @@ class Model(_Named):
 class Data(_Named):
     """A simulation of a model: its state and results. Fields with rows are NumPy arrays that show its memory."""
 
-    __slots__ = ("_model", "_native")
+    # Arrays that were taken once are attributes: the memory that they show stays where it is.
+    __slots__ = ("__dict__", "_model", "_native")
     _model: Model
     _native: _labspec.Data
 
@@ -250,12 +257,16 @@ class Data(_Named):
         The data get other memory: arrays that were taken before keep showing the data before.
         """
         self._native.restore(content)
+        self.__dict__.clear()
 
     def _object(self, kind: str, key: str | int) -> Any:
         return _Object(self, self._model, kind, key)
 
     def __getattr__(self, name: str) -> Any:
-        return self._native.field(name)
+        found = self._native.field(name)
+        if isinstance(found, np.ndarray) and isinstance(found.base, memoryview) and isinstance(found.base.obj, _labspec.FieldView):
+            self.__dict__[name] = found
+        return found
 
     def __setattr__(self, name: str, value: Any) -> None:
         self._native.set_field(name, np.asarray(value, float))

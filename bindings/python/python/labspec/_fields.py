@@ -44,3 +44,9 @@ def of_kind(owner: str, kind: str) -> dict[str, tuple[str, str]]:
 def names_of(owner: str) -> tuple[str, ...]:
     """The names of the fields of the model or the data."""
     return tuple(name for table, name, *_ in field_docs() if table == owner)
+
+
+@cache
+def writable_names(owner: str) -> tuple[str, ...]:
+    """The names of the fields of the model or the data that a caller may write: state, inputs and parameters."""
+    return tuple(name for table, name, _unit, _doc, _shape, writable in field_docs() if table == owner and writable)

@@ -4,19 +4,23 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _labspec
-from ._check import Finding, models_near
+from . import _html, _labspec
+from ._check import Finding, Progress, Report, checked, models_near
 from ._engine import Files, Model
+from ._reports import Precision, Stability, precision_of, stability_of
 
 Value = float | str | bool
+
+#: Steps of a run that is drawn for a notebook.
+_MOST_DRAWN = 50_000
 
 
 @dataclass(frozen=True)
@@ -54,6 +58,21 @@ class Recording:
     times: NDArray[np.float64]
     values: NDArray[np.float64]
     displayed: tuple[Displayed, ...]
+    #: The lab that was recorded.
+    lab: Lab | None = field(default=None, repr=False, compare=False)
+
+    def plots(self) -> tuple[str, ...]:
+        """The plots of the lab as SVG, as ``labspec run --svg`` draws them."""
+        if self.lab is None:
+            return ()
+        rows = np.column_stack([self.times, self.values])
+        return tuple(self.lab._native.draw(np.ascontiguousarray(rows, np.float64).ravel()))
+
+    def _repr_html_(self) -> str:
+        last = zip(self.displayed, self.values[-1] if len(self) else (), strict=False)
+        heading = _html.heading("Recording", f"{len(self)} samples" + (f" until {self.times[-1]:g} s" if len(self) else ""))
+        pictures = "".join(_html.picture(svg, f"plot {i}") for i, svg in enumerate(self.plots(), 1))
+        return heading + pictures + _html.table(["", "at the end", "unit"], [[d.label, float(x), d.unit] for d, x in last])
 
     def __getitem__(self, label: str) -> NDArray[np.float64]:
         """The column with this label."""
@@ -186,7 +205,91 @@ class Lab:
         elif until is not None or steps is None:
             raise TypeError("a recording has either `until`, a time, or `steps`")
         _made, rows = self._native.record(steps, every)
-        return Recording(rows[:, 0], rows[:, 1:], self.displayed)
+        return Recording(rows[:, 0], rows[:, 1:], self.displayed, self)
+
+    def verify(self, claims: Mapping[str, Any] | None = None, *, progress: Progress | None = None) -> Report:
+        """Verifies the claims of the lab, or those of another ``verify`` object about it: runs, measures, conditions and quotes.
+
+        The runs start from the lab as it was opened. The report is that of ``labspec verify``; its numbers are in ``verifications``.
+        """
+        if claims is not None:
+            text, path = json.dumps({**self.json, "verify": claims}), "lab.json"
+            return checked(path, text, self._source[-1], None, "claims", progress)
+        path, text, address = self._text()
+        report = checked(path, text, self._source[-1], None, "claims", progress)
+        return _about(report, address)
+
+    def precision(
+        self,
+        *,
+        until: float | None = None,
+        set: Mapping[str, Value] | None = None,
+        press: Iterable[tuple[str, float]] = (),
+        integrators: Iterable[str] = (),
+        vary: Iterable[str] = (),
+        progress: Progress | None = None,
+    ) -> Precision:
+        """Compares error and run time of integrators and timesteps, like ``labspec precision``.
+
+        The runs start from the lab as it was opened, with the controls ``set``, and with buttons pressed at their times, s. ``vary`` are settings of the
+        constraint solver: "iterations", "tolerance", "cone". ``progress`` is called with what is done now. Ctrl-C ends it.
+        """
+        given = {"until": until, "set": list((set or {}).items()), "press": list(press)}
+        return precision_of(*_labspec.precision(self._labelled(), self._source[-1], given, list(integrators), list(vary), progress))
+
+    def stability(
+        self,
+        *,
+        until: float | None = None,
+        margins: bool = False,
+        map: tuple[str, str] | None = None,
+        set: Mapping[str, Value] | None = None,
+        press: Iterable[tuple[str, float]] = (),
+        progress: Progress | None = None,
+    ) -> Stability:
+        """Finds what breaks when a student moves the controls in every way, like ``labspec stability``.
+
+        With ``margins``, also how far the timestep, gains, stiffnesses and mass ratios can be raised; with ``map``, what happens over a grid of two
+        controls. Ctrl-C ends it.
+        """
+        given = {"until": until, "set": list((set or {}).items()), "press": list(press)}
+        return stability_of(*_labspec.stability(self._labelled(), self._source[-1], given, margins, map, progress))
+
+    def _text(self) -> tuple[str, str, str | None]:
+        """The text that has the lab, its name, and the address of the lab in it."""
+        if len(self._source) == 2:
+            return "lab.json", self._source[0], None
+        path, text, address, _models = self._source
+        return path, text, address
+
+    def _labelled(self) -> dict[str, Any]:
+        return dict(zip(("path", "text", "address"), self._text(), strict=True))
+
+    def _repr_html_(self) -> str:
+        title, kind = self._native.title()
+        controls = [[c.label, "" if c.kind == "button" else self[c.label], c.unit] for c in self.controls]
+        state = self.save()
+        try:
+            self.reset()
+            pictures = "".join(_html.picture(svg, f"plot {i}") for i, svg in enumerate(self.record(steps=self._watched()).plots(), 1))
+        except _labspec.LabspecError as e:
+            pictures = f"<p>{_html.text(e)}</p>"
+        finally:
+            self.restore(state)
+        return (
+            _html.heading(title or kind, f"t = {self.time:g} s")
+            + pictures
+            + _html.table(["control", "value", "unit"], controls)
+            + _html.table(["readout", f"at {self.time:g} s"], list(self.readouts.items()))
+        )
+
+    def _watched(self) -> int:
+        """The steps that a student watches: until ``stopAt``, or in the longest window of a plot."""
+        source = self.json
+        plots = source.get("plots")
+        windows = [_seconds(plot.get("window", 5)) for plot in plots if isinstance(plot, dict)] if isinstance(plots, list) else []
+        seconds = _seconds(source.get("stopAt")) or max(windows, default=0.0)
+        return round(min(_MOST_DRAWN, seconds / self.timestep))
 
     def field(self, name: str) -> Any:
         """A field of the data or of the model as the lab changed it: "qpos", "body_mass", "opt.gravity". A copy."""
@@ -199,6 +302,46 @@ class Lab:
     def restore(self, state: _labspec.LabState) -> None:
         """Restores a state of this lab. It then continues with equal results, bit for bit."""
         self._native.restore(state)
+
+
+def _seconds(value: object) -> float:
+    """A time in a lab that anybody may have written; 0 if it is none."""
+    try:
+        seconds = float(value) if isinstance(value, (int, float)) else 0.0
+    except OverflowError:
+        return float("inf")
+    return seconds if seconds > 0 else 0.0
+
+
+def is_owned(owner: str | None, address: str | None) -> bool:
+    """Whether an owner of claims is the lab at an address of a lesson, or the question that has it."""
+    if owner is None or address is None:
+        return address is None
+    quiz, _, number = address.removeprefix("#").rpartition(".")
+    name = f"quiz {quiz}, question {number}" if quiz else f"lab {address}"
+    return owner == name or owner.startswith(f"{name} ")
+
+
+def _about(report: Report, address: str | None) -> Report:
+    """The part of a report about one lab of a lesson, or about the question that has it."""
+    if address is None:
+        return report
+    claims = tuple(c for c in report.claims if is_owned(c.owner, address))
+
+    def concerns(f: Finding) -> bool:
+        return is_owned(f.owner, address) if f.owner is not None else any(c.start <= f.start and f.end <= c.end for c in claims)
+
+    findings = tuple(f for f in report.findings if concerns(f))
+    verifications = tuple(v for v in report.verifications if is_owned(v.owner, address))
+    # The runs of the lab as a student plays it are left out: this is about claims.
+    states = {c.state for c in claims if c.subject != "lab"}
+    if "false" in states or any(f.severity in ("error", "warning") for f in findings):
+        outcome = "findings"
+    elif not states & {"true"}:
+        outcome = "nothing"
+    else:
+        outcome = "partial" if states & {"unchecked", "left out"} else "clean"
+    return replace(report, outcome=outcome, claims=claims, findings=findings, verifications=verifications)
 
 
 def _opened(source: tuple[Any, ...]) -> Lab:

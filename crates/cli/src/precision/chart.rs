@@ -7,7 +7,7 @@ use labspec_numerics::precision::{Errors, PrecisionResults, PrecisionRow, RunSta
 use labspec_plot::{Method, MethodPoint, WorkPrecision, work_precision};
 
 /// A log-log chart of the first trace: error on the horizontal axis, cost on the vertical axis, one curve per integrator.
-pub(super) fn chart(report: &PrecisionResults, title: &str) -> String {
+pub(in super::super) fn chart(report: &PrecisionResults, title: &str) -> String {
     // The first number whose truth is known.
     let first = report.targets.iter().position(|t| t.is_compared());
     let target = first.and_then(|i| report.targets.get(i));

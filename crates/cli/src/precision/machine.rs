@@ -210,7 +210,7 @@ struct BesideRunRow<'a> {
     microseconds_per_second: f64,
 }
 
-pub(super) fn machine(report: &PrecisionResults) -> WithNonfinite<PrecisionReport<'_>> {
+pub(in super::super) fn machine(report: &PrecisionResults) -> WithNonfinite<PrecisionReport<'_>> {
     let targets = || report.targets.iter();
     // A closed form has no uncertainty: its entry is missing, not lost.
     let column = |f: fn(&Compared) -> Option<f64>| targets().map(f).collect::<Vec<_>>();

@@ -11,7 +11,7 @@ use super::output::{requested_outputs, write_png, write_with};
 use super::output_kind::OutputKind;
 use super::report_json::print_report;
 use super::stdio::{Progress, print, stream};
-use chart::chart;
+pub(super) use chart::chart;
 use clap::ValueEnum;
 use labspec::report::{printable, printable_path};
 use labspec::run::{INTEGRATORS, Integrator};
@@ -20,8 +20,8 @@ use labspec::verify::significant;
 use labspec_numerics::precision::{
     OtherRecording, PrecisionOptions, PrecisionResults, RunStatus, VariedSetting, compare, milliseconds,
 };
-pub(super) use machine::PrecisionReport;
-use machine::{csv, machine};
+use machine::csv;
+pub(super) use machine::{PrecisionReport, machine};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use table::{setting, table, write_other_runs};

@@ -264,7 +264,7 @@ struct MapRow<'a> {
     cells: Vec<Vec<String>>,
 }
 
-pub(super) fn machine<'a>(report: &'a StressReport, programs: &'a Programs) -> StabilityReport<'a> {
+pub(in super::super) fn machine<'a>(report: &'a StressReport, programs: &'a Programs) -> StabilityReport<'a> {
     let tried = report.tried.iter().map(|t| CountRow {
         kind: key(t.kind.description()),
         made: t.made,

@@ -19,8 +19,7 @@ use labspec_numerics::stability::{
     MapCell, Margin, Sensitivity, StabilityFinding, StabilityMap, StressOptions, StressReport, probe,
 };
 use labspec_plot::{Cells, cells};
-pub(super) use machine::StabilityReport;
-use machine::machine;
+pub(super) use machine::{StabilityReport, machine};
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -306,7 +305,7 @@ fn index(kinds: &[FaultKind], cell: MapCell) -> Option<usize> {
     }
 }
 
-fn chart(map: &StabilityMap, title: &str) -> String {
+pub(super) fn chart(map: &StabilityMap, title: &str) -> String {
     let kinds = kinds(map);
     let names = std::iter::once("fine").chain(kinds.iter().map(|k| k.description()));
     let values = |k: usize| map.values[k].iter().map(ToString::to_string).collect();
