@@ -1,6 +1,7 @@
 //! JSON reports for editors and pipelines: their common parts. The reference is `docs/reports.md`, and `docs/schema`
 //! contains a JSON Schema of each report.
 
+use super::nonfinite::nonfinite;
 #[cfg(feature = "report")]
 use super::schema_parts::PartOf;
 use super::{Summary, file_of};
@@ -196,16 +197,6 @@ impl<'a> PlaceFields<'a> {
             end_column: Some(to.column),
             range: Some(EditorRange { start, end }),
         }
-    }
-}
-
-/// The name of a number that JSON cannot represent: `NaN`, `Infinity` or `-Infinity`; `None` for every other number.
-pub fn nonfinite(x: f64) -> Option<&'static str> {
-    match x {
-        x if x.is_nan() => Some("NaN"),
-        f64::INFINITY => Some("Infinity"),
-        f64::NEG_INFINITY => Some("-Infinity"),
-        _ => None,
     }
 }
 

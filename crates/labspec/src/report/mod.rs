@@ -7,6 +7,7 @@ pub mod html;
 #[cfg(feature = "report")]
 mod human;
 mod machine;
+mod nonfinite;
 #[cfg(feature = "report")]
 mod sarif;
 #[cfg(feature = "report")]
@@ -21,13 +22,14 @@ pub use crate::printable::{counted, printable, printable_json, printable_lines, 
 pub use formats::{concise, github, gitlab, jsonl, junit, statistics};
 #[cfg(feature = "report")]
 pub use human::human;
-pub use machine::{
-    FindingRow, PlaceFields, SCHEMA_VERSION, json, key, nonfinite, report, set_number, set_numbers,
-};
+pub use machine::{FindingRow, PlaceFields, SCHEMA_VERSION, json, key, report, set_number, set_numbers};
+pub use nonfinite::nonfinite;
+#[cfg(feature = "report")]
+pub use nonfinite::{NonfiniteEntries, NonfiniteName};
 #[cfg(feature = "report")]
 pub use sarif::{page, sarif};
 #[cfg(feature = "report")]
-pub use schema_parts::{NonfiniteEntries, NonfiniteName, PartOf};
+pub use schema_parts::PartOf;
 #[cfg(feature = "report")]
 pub use table::RunReport;
 pub use table::{TableReport, number_in_table};

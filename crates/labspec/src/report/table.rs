@@ -4,9 +4,10 @@
 //! Every number is written so that reading it gives the same bits. A column of JSON has values of one type. For a number
 //! that JSON cannot represent it has `null`, and the list `nonfinite` contains the number.
 
+use super::SCHEMA_VERSION;
 #[cfg(feature = "report")]
-use super::schema_parts::NonfiniteName;
-use super::{SCHEMA_VERSION, nonfinite};
+use super::nonfinite::NonfiniteName;
+use super::nonfinite::nonfinite;
 use crate::printable::printable_json;
 use crate::run::{Cell, Table};
 use labspec_expr::Value;
