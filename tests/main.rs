@@ -21,6 +21,7 @@ mod eight;
 mod evidence;
 mod examples;
 mod false_claims;
+mod file_lengths;
 mod files;
 mod fixes;
 mod format;

@@ -196,7 +196,7 @@ fn collect_outcomes(
     if readable == 0 && interrupted > 0 {
         return Err(format!("interrupted: 0 of {} files checked", jobs.len()));
     }
-    if readable == 0 {
+    if readable == 0 && !(request.skip_others && refused.is_empty()) {
         return Err(nothing_to_check(request.paths, &refused));
     }
     results.course_findings.extend(refused.into_iter().map(|(path, why)| unreadable_finding(&path, why)));

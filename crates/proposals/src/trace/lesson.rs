@@ -2,7 +2,9 @@
 
 use super::formula::bindings;
 use super::lab::TracedLab;
-use super::rank::{self, Origin};
+use super::neighbours;
+use super::origin::Origin;
+use super::rank;
 use super::tables::{TracedTable, tables};
 use labspec::bind::scene::Models;
 use labspec::interrupt;
@@ -48,13 +50,13 @@ pub fn trace<'l>(lesson: &'l Lesson, models: &Models, report_progress: &mut dyn 
     };
     let mut origins: Vec<Origin> = numbers.iter().map(origin_of).collect();
     if !interrupt::requested() {
-        rank::compare_siblings(&numbers, &mut origins, &labs, &bindings);
-        rank::compare_contrasts(&numbers, &mut origins, &labs, &bindings);
+        neighbours::compare_siblings(&numbers, &mut origins, &labs, &bindings);
+        neighbours::compare_contrasts(&numbers, &mut origins, &labs, &bindings);
     }
     mark_unsteady(&numbers, &mut origins, &labs, &stage);
-    rank::doubt_coarse(&numbers, &mut origins);
-    rank::share_exact(&numbers, &mut origins);
-    rank::share(&numbers, &mut origins);
+    neighbours::doubt_coarse(&numbers, &mut origins);
+    neighbours::share_exact(&numbers, &mut origins);
+    neighbours::share(&numbers, &mut origins);
     let outputs = outputs(lesson);
     for (s, origin) in numbers.iter().zip(&mut origins) {
         if let (Origin::Unknown | Origin::Chance(_), Some(line)) = (&*origin, printed_by(s, &outputs)) {

@@ -4,7 +4,7 @@ use super::candidates::Candidate;
 use super::lab::TracedLab;
 use super::lesson::Traces;
 use super::names::{measure_name, slug};
-use super::rank::{MeasureMatch, Origin};
+use super::origin::{MeasureMatch, Origin};
 use super::tables::TracedTable;
 use super::trials::TraceRun;
 use labspec::json::Scalar;
