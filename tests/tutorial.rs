@@ -88,7 +88,7 @@ fn the_tutorial_begins_with_the_course_in_a_browser() {
 }
 
 /// The only block that is not run: it builds the program, which already exists in the test.
-const BUILD: &str = "cargo install --path crates/cli --locked\nlabspec --version\n";
+const BUILD: &str = "cargo install --path crates/cli --locked\nlabspec -V\n";
 
 #[test]
 fn the_tutorial_is_followed_word_for_word() {
@@ -141,7 +141,7 @@ fn follow(page: &str) -> (usize, usize) {
         let name = before.rsplit('`').nth(1);
         let mut block = inside.clone();
         match kind {
-            "sh" if inside == BUILD => output = Some(terminal.types("labspec --version")),
+            "sh" if inside == BUILD => output = Some(terminal.types("labspec -V")),
             "sh" => output = Some(terminal.types(&inside)),
             "text" => {
                 block = output.take().unwrap();

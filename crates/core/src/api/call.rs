@@ -14,7 +14,7 @@ use super::error::Error;
 use super::model::{KeyId, Model};
 use super::planning::Plan;
 use crate::constraint;
-use crate::dynamics::{self, jacobian, mass, object, rne as newton_euler, subtree, tree_algorithms};
+use crate::dynamics::{self, jacobian, object, rne as newton_euler, subtree, tree_algorithms};
 use crate::forces::{actuation, energy};
 use crate::kinds::integrator;
 use crate::math::{Spatial, Vec3};
