@@ -99,7 +99,8 @@ pub(crate) fn cross_check<'py>(
         dict.set_item("compared", judged.compared)?;
         dict.set_item("verdicts", judged.claims)?;
         dict.set_item("turned", judged.turned)?;
-        let differing: Vec<_> = judged.differing.iter().map(|d| (&d.name, d.ours, d.theirs)).collect();
+        let differing: Vec<_> =
+            judged.differing.iter().map(|d| (&d.name, d.labspec_value, d.reference_value)).collect();
         dict.set_item("differing", differing)?;
         dict.set_item("unjudged", judged.unjudged.clone())?;
         claims.append(dict)?;
