@@ -110,6 +110,12 @@ fn the_hook_checks_lessons_and_models_only() {
     for bad in ["bad.xml", "bad.json"] {
         assert_eq!(hook(&["README.md", bad]).0, Some(1), "{bad}");
     }
+    // A pipe is not opened, and a lesson without claims is nothing that `verify` could call clean.
+    let pipe = folder.path().join("pipe.xml");
+    assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    assert_eq!(hook(&["README.md", "pipe.xml"]).0, Some(1));
+    assert_eq!(run_in(folder.path(), &["verify", "--skip-others", "lab.json"]).code, 2);
+    assert_eq!(run_in(folder.path(), &["verify", "--skip-others", "README.md"]).code, 0);
     // Without the option, a named file must be a lesson.
     let named = run_in(folder.path(), &["check", "package.json"]);
     assert_eq!(named.code, 1, "{}", named.stdout);

@@ -208,11 +208,12 @@ fn command_outcome(
     let names = || options.paths.iter().map(|p| printable_path(p)).collect::<Vec<_>>().join(", ");
     match outcome {
         ledger::Outcome::Findings => Ok(CommandOutcome::Findings),
-        ledger::Outcome::Nothing if options.skip_others => Ok(CommandOutcome::Clean),
         ledger::Outcome::Nothing if results.ledger.outcome() == ledger::Outcome::Clean => Err(format!(
             "there is nothing to verify in {}: no question and no lab has a `verify` object",
             names()
         )),
+        // No file contains anything, and the user expects that.
+        ledger::Outcome::Nothing if options.skip_others => Ok(CommandOutcome::Clean),
         ledger::Outcome::Nothing => {
             Err(format!("there is nothing to check in {}: no lab, no question and no model", names()))
         }

@@ -13,7 +13,7 @@ use labspec::finding::Finding;
 use labspec::lint::{self, ModelFolder, load_lesson_at, load_lesson_file};
 use labspec::report::printable_path;
 use labspec::rules;
-use labspec::source::{SourceFile, Sources};
+use labspec::source::{SourceFile, Sources, read_text};
 use labspec::spec::{Conventions, FileKind, Lesson, kind_of};
 use labspec::threads;
 use std::collections::BTreeMap;
@@ -215,13 +215,16 @@ fn panic_message(panic: &str) -> String {
     format!("labspec failed while checking this file: {panic}")
 }
 
+/// The maximum size of XML that is searched for a model, in bytes.
+const MAX_XML: u64 = 64 << 20;
+
 /// Whether the file is XML of another program, or a part that models include.
 fn is_other_xml(path: &Path) -> bool {
     let is_root = |text: &str| {
         text.split("<mujoco").skip(1).any(|rest| !rest.starts_with(|c: char| c.is_alphanumeric()))
     };
-    // A text with zero bytes has another encoding, which the check reports.
-    std::fs::read(path).is_ok_and(|bytes| !bytes.contains(&0) && !is_root(&String::from_utf8_lossy(&bytes)))
+    // What cannot be read as text is left to the check, which reports it.
+    read_text(path, MAX_XML, "the XML").is_ok_and(|text| !is_root(&text))
 }
 
 /// Whether the file is JSON of another program, which may be in a folder of lessons. A file that the user

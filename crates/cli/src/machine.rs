@@ -259,7 +259,7 @@ struct DivergenceRow<'a> {
     nonfinite: NonFinite,
     /// What is stored, as it stands there.
     stored: &'a str,
-    /// What is shown now, with a digit more.
+    /// The current value, with a digit more.
     #[serde(rename = "now")]
     current: &'a str,
     /// How far a number may be off: half a unit of the last digit that is stored; null for what is no number.

@@ -119,7 +119,7 @@ struct PrecisionRunRow<'a> {
     status: String,
     /// The engine met a bad number, and reset the scene.
     diverged: bool,
-    /// What was told about the run.
+    /// What is reported about the run.
     #[serde(rename = "told")]
     reported: &'a [String],
     /// For each trace: the samples at which a student sees its error.

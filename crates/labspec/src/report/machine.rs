@@ -85,7 +85,7 @@ pub struct FindingRow<'a> {
 struct FixRow<'a> {
     /// What to write at this place.
     text: &'a str,
-    /// Who may do it: `safe`, any program; `unsafe`, a program that was told to, as it is a guess; `display`, only the author.
+    /// Who may do it: `safe`, any program; `unsafe`, a program that is asked to, because it is a guess; `display`, only the author.
     #[cfg_attr(feature = "report", schemars(extend("enum" = Applicability::ALL.map(Applicability::as_str))))]
     applicability: &'a str,
     #[serde(flatten)]
