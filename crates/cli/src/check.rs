@@ -61,10 +61,6 @@ pub(super) struct VerifyArguments {
     /// Compare every measure with a recording of MuJoCo, and check every claim again with its numbers
     #[arg(long, value_name = "FILE")]
     judge: Option<PathBuf>,
-    /// Skip named files that contain no lab, quiz or model, as in folders, and succeed if nothing is left: for hooks that
-    /// name every changed file
-    #[arg(long)]
-    skip_others: bool,
     /// Show only the number of findings of each rule
     #[arg(long)]
     statistics: bool,
@@ -82,6 +78,10 @@ pub(super) struct CheckArguments {
     /// and the exit code is 3 if no problems are found
     #[arg(long)]
     no_run: bool,
+    /// Skip named files that contain no lab, quiz or model, as in folders, and succeed if nothing is left: for hooks that
+    /// name every changed file
+    #[arg(long)]
+    skip_others: bool,
     /// Apply safe fixes; every fix is checked before it is written
     #[arg(long)]
     fix: bool,
@@ -125,17 +125,18 @@ pub(super) fn check_command(a: &CheckArguments) -> Result<CommandOutcome, Failur
         (a.fix || a.diff || a.unsafe_fixes).then_some(FixMode { guesses: a.unsafe_fixes, diff: a.diff });
     let paths =
         RecordPaths { write: a.record.as_deref(), html: a.html.as_deref(), since: a.since.as_deref() };
-    run_check(&a.common, level, false, fix, paths)
+    run_check(&a.common, level, a.skip_others, false, fix, paths)
 }
 
 pub(super) fn verify_command(a: &VerifyArguments) -> Result<CommandOutcome, Failure> {
-    run_check(a, CheckLevel::CLAIMS, true, None, RecordPaths::default())
+    run_check(a, CheckLevel::CLAIMS, false, true, None, RecordPaths::default())
 }
 
 /// Checks once, or again whenever a file changes.
 fn run_check(
     a: &VerifyArguments,
     level: CheckLevel,
+    skip_others: bool,
     with_evidence: bool,
     fix_mode: Option<FixMode>,
     paths: RecordPaths<'_>,
@@ -146,7 +147,7 @@ fn run_check(
     let is_human = a.format == CheckFormat::Human;
     let request = CheckRequest {
         paths: &a.paths,
-        skip_others: a.skip_others,
+        skip_others,
         stdin: inputs.stdin.as_ref(),
         models: &a.models,
         level,
@@ -164,7 +165,7 @@ fn run_check(
     };
     let output = OutputOptions {
         paths: &a.paths,
-        skip_others: a.skip_others,
+        skip_others,
         format: a.format,
         color: a.color,
         with_evidence,

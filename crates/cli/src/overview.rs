@@ -138,7 +138,9 @@ pub(super) fn format_summary(results: &CourseResults) -> String {
         Some((checked, all)) => format!("interrupted: {checked} of {all} files checked; "),
         None => String::new(),
     };
-    format!("{interrupted}{}: {judgement}{}", results.ledger.summary(), format_suppressed(results))
+    let counts = results.ledger.summary();
+    let counts = if counts.is_empty() { counts } else { format!("{counts}: ") };
+    format!("{interrupted}{counts}{judgement}{}", format_suppressed(results))
 }
 
 /// The number of suppressed findings.

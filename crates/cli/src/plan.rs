@@ -249,7 +249,7 @@ pub(super) struct PlanOutput<'a> {
     solver: SolverRow<'a>,
     /// The integrators.
     integrators: &'a [EngineOption],
-    /// The tree algorithms, the cheapest first, and the number of trees that use each.
+    /// The tree algorithms, and the number of trees that use each.
     #[serde(rename = "ways")]
     tree_algorithms: Vec<TreeAlgorithmRow>,
     /// What more readers (`--read`) would cost, one by one; where there are several, then all of them together.
