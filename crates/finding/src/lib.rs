@@ -8,6 +8,7 @@
 mod example;
 mod finding;
 mod nearest;
+mod numbers;
 pub mod order;
 mod pages;
 mod place;
@@ -17,6 +18,7 @@ mod severity;
 pub use example::Example;
 pub use finding::{Applicability, ClaimId, Finding, Fix, sort};
 pub use nearest::{distance, nearest, ranked};
+pub use numbers::{scientific, two_digits, without_zeros};
 pub use pages::list_rules;
 pub use place::{EditorPosition, Lines, Place, Position, Span, floor};
 pub use rule::{Layer, Rule};

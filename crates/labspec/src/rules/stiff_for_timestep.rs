@@ -1,4 +1,4 @@
-use crate::monitors::stability;
+use labspec_monitors::stability;
 use crate::run;
 use labspec_core::{AccessSet, Model};
 use labspec_finding::{Example, Finding, Layer, Rule, Severity};

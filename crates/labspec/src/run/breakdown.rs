@@ -1,11 +1,11 @@
 //! Breakdowns of a run, described for teachers: what broke, when, the likely cause, and a suggestion.
 
-use super::cell::rounded;
 use super::integrator::sets_integrator;
 use super::session::Session;
-use crate::monitors::stability::{self, StiffPart, UnstablePart};
 use crate::rules::Rule;
-use labspec_core::{AccessSet, Model, Obj};
+use labspec_core::{AccessSet, Model};
+use labspec_finding::{two_digits, without_zeros};
+use labspec_monitors::stability::{self, StiffPart, UnstablePart, how_stiff, owner};
 
 /// A breakdown of a run, reported by the engine or silent, described for teachers.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,21 +59,6 @@ pub fn time(t: f64) -> String {
     without_zeros(format!("{t:.4}"))
 }
 
-/// Two significant digits as plain decimals: `0.85`, `0.00018`; larger numbers as integers. Very small or large numbers
-/// have an exponent.
-pub fn two_digits(x: f64) -> String {
-    let size = x.abs();
-    if size == 0.0 || !(1e-6..1e7).contains(&size) {
-        return rounded(x, 2);
-    }
-    let places = (1.0 - size.log10().floor()).clamp(0.0, 9.0) as usize;
-    without_zeros(format!("{x:.places$}"))
-}
-
-fn without_zeros(text: String) -> String {
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
-}
-
 /// The likely cause of a breakdown, and the remedies.
 pub(super) struct BreakdownAdvice {
     pub(super) cause: Option<String>,
@@ -113,34 +98,6 @@ impl BreakdownAdvice {
     pub(super) fn breakdown(self, rule: &'static Rule, what: String, why: &'static str) -> Breakdown {
         let BreakdownAdvice { cause, shorter, instead } = self;
         Breakdown { rule, what, why, cause, shorter, instead }
-    }
-}
-
-/// The name of the stiff part: `the servo "lift"`, `the spring of joint "knee"`.
-pub fn owner(model: &Model, s: &UnstablePart) -> String {
-    let names = model.names.of_kind(s.object);
-    let name = match names.get(s.id) {
-        Some(name) if !name.is_empty() => format!("\"{name}\""),
-        _ => s.id.to_string(),
-    };
-    match (s.part, s.object) {
-        (StiffPart::Servo, _) => format!("the servo {name}"),
-        (StiffPart::Constraint, Obj::Geom) => format!("the contact of geom {name}"),
-        (StiffPart::Constraint, Obj::Pair) => format!("the contact of pair {name}"),
-        (StiffPart::Constraint, _) => format!("the equality {name}"),
-        (part, object) => {
-            let what = if part == StiffPart::Limit { "limit" } else { "spring or damper" };
-            format!("the {what} of {} {name}", if object == Obj::Tendon { "tendon" } else { "joint" })
-        }
-    }
-}
-
-/// By how much it is too stiff: `1.8 times too stiff`, `just too stiff`.
-pub fn how_stiff(s: &UnstablePart) -> String {
-    match s.excess {
-        x if x < 1.1 => "just too stiff".into(),
-        x if x < 10.0 => format!("{} times too stiff", without_zeros(format!("{x:.1}"))),
-        x => format!("{x:.0} times too stiff"),
     }
 }
 

@@ -1,6 +1,7 @@
 //! One sampled value, and its format on the page.
 
 use labspec_expr::Value;
+use labspec_finding::scientific;
 
 /// One sampled value.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,19 +51,7 @@ impl Cell {
 
 /// A number as the page prints it: with fixed decimals, or exponential when it is small or large.
 pub fn rounded(x: f64, digits: u32) -> String {
-    if x.is_nan() {
-        return "nan".into();
-    }
-    if x.is_infinite() {
-        return if x > 0.0 { "inf" } else { "-inf" }.into();
-    }
-    let magnitude = x.abs();
-    if magnitude != 0.0 && !(1e-3..1e5).contains(&magnitude) {
-        let text = format!("{x:.2e}");
-        // JavaScript writes the sign of the exponent.
-        return if text.contains("e-") { text } else { text.replace('e', "e+") };
-    }
-    labspec_expr::to_fixed(x, digits as usize)
+    scientific(x, 1e-3..1e5).unwrap_or_else(|| labspec_expr::to_fixed(x, digits as usize))
 }
 
 /// The number that [`rounded`] prints.

@@ -19,12 +19,14 @@ mod table;
 mod variant;
 mod watched;
 
-pub use breakdown::{Breakdown, ShorterTimestep, attribute_to_soften, how_stiff, owner, time, two_digits};
+pub use breakdown::{Breakdown, ShorterTimestep, attribute_to_soften, time};
 pub use budget::{Budget, End};
 pub use cell::{Cell, printed, rounded};
 pub use diagnose::{breakdowns_of, worst_breakdown};
 pub use held::ProgramsRef;
 pub use integrator::{INTEGRATORS, Integrator, sets_integrator};
+pub use labspec_finding::two_digits;
+pub use labspec_monitors::stability::{how_stiff, owner};
 pub use messages::{describe_breakdown, error_finding};
 pub use play::{Play, play};
 pub use program_error::ProgramError;

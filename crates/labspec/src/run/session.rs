@@ -9,13 +9,13 @@ use super::watched::MonitoredRun;
 use crate::bind::coupled::{self, Coupled};
 use crate::bind::{ActionProgram, ControlProgram, Programs, World};
 use crate::interrupt;
-use crate::monitors::growth::Growth;
-use crate::monitors::watch::{self, Observations};
 use crate::source::Text;
 use crate::spec::Lab;
 use labspec_core::{self as core, Data, Model, Plan, Planned, Warning, WarningStat};
 use labspec_expr::rules::{self, Rule};
 use labspec_expr::{Context, Program, RuntimeError, Value};
+use labspec_monitors::growth::Growth;
+use labspec_monitors::watch::{self, Observations};
 
 /// A running lab. A clone continues independently with equal results.
 #[derive(Clone, Debug)]

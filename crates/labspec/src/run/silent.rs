@@ -1,15 +1,16 @@
 //! Silent faults of a run, described for teachers: what happens, the consequence, and a remedy.
 
-use super::breakdown::{Breakdown, BreakdownAdvice, joint_of, time, two_digits};
+use super::breakdown::{Breakdown, BreakdownAdvice, joint_of, time};
 use super::session::Session;
-use crate::monitors::growth::{Growth, Source};
-use crate::monitors::limits::ExceededLimit;
-use crate::monitors::sunk::SunkContact;
-use crate::monitors::through::Through;
-use crate::monitors::unsolved::Unsolved;
-use crate::monitors::watch::Observations;
 use crate::rules;
 use labspec_core::{Model, joint, solver};
+use labspec_finding::two_digits;
+use labspec_monitors::growth::{Growth, Source};
+use labspec_monitors::limits::ExceededLimit;
+use labspec_monitors::sunk::SunkContact;
+use labspec_monitors::through::Through;
+use labspec_monitors::unsolved::Unsolved;
+use labspec_monitors::watch::Observations;
 
 const ENERGY_FROM_STEPS: &str = "the steps create the energy, not the physics: a student sees things leap or swing ever wider, and MuJoCo gives no warning";
 

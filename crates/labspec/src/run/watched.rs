@@ -1,9 +1,9 @@
 //! A run that is monitored for silent faults, and which runs can be monitored.
 
 use crate::bind::{Bound, Programs, World};
-use crate::monitors::watch::{self, Monitors};
 use labspec_core::reflect::{FieldId, Kind, data, option};
 use labspec_expr::FieldKey;
+use labspec_monitors::watch::{self, Monitors};
 
 /// Fields that a program may write in every step without setting positions: forces and controls.
 const FORCE_FIELDS: [FieldId; 3] = [data::ctrl, data::qfrc_applied, data::xfrc_applied];

@@ -1,15 +1,13 @@
 //! One run of a lab under an interaction, and the faults in it.
 
-use super::bodies;
-use super::fault::{Fault, FaultKind};
 use super::interaction::{Action, Interaction, InteractionKind, PUSH_SPEED};
 use super::run_faults::{DIVERGED, earliest_observed_fault, reported_faults, warned};
-use super::watch::{MOST_PAIRS, RunMonitor};
 use crate::bind::{Bound, Programs};
 use crate::run::{self, Budget, End, Play, Session, Start};
 use crate::spec::Lab;
 use labspec_core::reflect::{FieldId, data};
 use labspec_core::{AccessSet, Model, Plan};
+use labspec_monitors::stress::{Fault, FaultKind, MOST_PAIRS, RunMonitor, pairs};
 use std::collections::VecDeque;
 use std::ops::ControlFlow;
 
@@ -165,7 +163,7 @@ impl<'a> StressCase<'a> {
 
     /// The number of pairs of geoms that are monitored for tunnelling, if the model has more of them.
     pub fn watched_pairs_limit(&self) -> Option<usize> {
-        (!self.jumps && bodies::pairs(self.model, MOST_PAIRS).1).then_some(MOST_PAIRS)
+        (!self.jumps && pairs(self.model, MOST_PAIRS).1).then_some(MOST_PAIRS)
     }
 
     /// The lab after all actions before the first step.
@@ -250,7 +248,7 @@ impl<'a> StressCase<'a> {
             let over = DIVERGED.iter().any(|&w| warned(session, w).is_some());
             if over { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
-        let speeds = watcher.watch.rest.speeds(&session.world.model);
+        let speeds = watcher.watch.drift_speeds(&session.world.model);
         let touching = watcher.watch.touching();
         let faults = watcher.faults(&session);
         let outcome = RunOutcome {

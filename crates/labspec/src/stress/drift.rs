@@ -1,10 +1,10 @@
 //! Distinguishes drift caused by soft friction: a body that moves as fast with hard friction is pushed and has no fault.
 
 use super::case::StressCase;
-use super::fault::{Fault, FaultKind};
 use super::interaction::Interaction;
 use crate::run::Session;
 use labspec_core::math::rows_mut;
+use labspec_monitors::stress::{Fault, FaultKind};
 
 /// The faults of a run, without the drift of bodies that are pushed. A run with hard friction decides this; its work is
 /// returned.

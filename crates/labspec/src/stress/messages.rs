@@ -2,7 +2,7 @@
 
 use super::case::{RunOutcome, StressCase};
 use super::drift::without_pushed_bodies;
-use super::fault::{Fault, FaultKind, worst_fault};
+use super::fault_groups::{rule_of, worst_fault};
 use super::interaction::{Action, Interaction, InteractionKind};
 use crate::bind::Programs;
 use crate::rules::{self, Rule};
@@ -10,6 +10,7 @@ use crate::run::{self, Breakdown, Play, RunError, RunOptions, Session, ShorterTi
 use crate::spec::{ControlKind, Lab};
 use labspec_core::Model;
 use labspec_expr::Value;
+use labspec_monitors::stress::{Fault, FaultKind};
 use std::ops::ControlFlow;
 
 /// Number of tested halvings of the timestep, work budget of one run, and of all of them.
@@ -141,7 +142,7 @@ pub(crate) fn with_tried_end(
 
 /// Whether a run has no fault except drift, and not the reported one.
 fn has_no_fault(outcome: &RunOutcome, rule: &Rule) -> bool {
-    let same = |f: &Fault| f.kind.rule().is_some_and(|r| r.code == rule.code);
+    let same = |f: &Fault| rule_of(f.kind).is_some_and(|r| r.code == rule.code);
     worst_fault(&outcome.faults, &[]).is_none() && !outcome.faults.iter().any(same)
 }
 

@@ -1,12 +1,12 @@
 //! The faults that a run reports itself: warnings of the engine, energy growth, errors of programs, and the observations of
-//! [`crate::monitors::watch`].
+//! [`labspec_monitors::watch`].
 
-use super::bodies::{geom_name, joint_of_dof, joint_of_place};
-use super::causes::{stiffness_cause, unknown_cause};
-use super::fault::{Fault, FaultEvidence, FaultKind};
-use crate::monitors::watch::Observations;
 use crate::run::Session;
 use labspec_core::{Model, Warning, WarningStat, joint};
+use labspec_monitors::stress::{
+    Fault, FaultEvidence, FaultKind, geom_name, joint_of_dof, joint_of_place, stiffness_cause, unknown_cause,
+};
+use labspec_monitors::watch::Observations;
 
 /// Warnings of numbers that are not finite or too large.
 pub(super) const DIVERGED: [Warning; 3] = [Warning::BadQpos, Warning::BadQvel, Warning::BadQacc];

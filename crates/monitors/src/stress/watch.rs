@@ -9,9 +9,10 @@ use super::height_field::{self, HeightFieldPair};
 use super::runaway::RunawayMonitor;
 use labspec_core::math::{Vec3, rows, sub};
 use labspec_core::{Fields, Model, geom, geom_half_extents, geom_thickness};
+use labspec_finding::two_digits;
 
 /// Maximum number of pairs of geoms that are monitored for tunnelling.
-pub(super) const MOST_PAIRS: usize = 2000;
+pub const MOST_PAIRS: usize = 2000;
 /// Maximum number of contact pairs with a history.
 const MAX_TOUCHING: usize = 500;
 /// Fraction of the size of the smaller body above which a penetration is deep, and its minimum duration, s. Contacts yield
@@ -27,12 +28,12 @@ const BLOCKS: usize = 2;
 const REST_FRACTION: f64 = 0.02;
 
 /// The observations of a run.
-pub(super) struct RunMonitor {
+pub struct RunMonitor {
     pairs: Vec<PassingPair>,
     grounds: Vec<HeightFieldPair>,
     touching: Vec<TouchingPair>,
-    pub(super) wild: RunawayMonitor,
-    pub(super) rest: CreepMonitor,
+    wild: RunawayMonitor,
+    rest: CreepMonitor,
     faults: Vec<Fault>,
     steps: usize,
     last: f64,
@@ -71,7 +72,8 @@ struct TouchingPair {
 }
 
 impl RunMonitor {
-    pub(super) fn new(m: &Model, jumps: bool) -> RunMonitor {
+    /// `jumps` is true where a program writes positions of bodies.
+    pub fn new(m: &Model, jumps: bool) -> RunMonitor {
         let pairs = if jumps { Vec::new() } else { bodies::pairs(m, MOST_PAIRS).0 };
         RunMonitor {
             pairs: pairs.into_iter().map(|geoms| PassingPair { geoms, before: None, done: false }).collect(),
@@ -87,7 +89,7 @@ impl RunMonitor {
     }
 
     /// Call after bodies were moved from outside: earlier positions are no longer compared.
-    pub(super) fn disturb(&mut self, m: &Model, d: &Fields) {
+    pub fn disturb(&mut self, m: &Model, d: &Fields) {
         for pair in &mut self.pairs {
             let [g, p] = pair.geoms;
             pair.before = centre_in_frame(&d.geom_xpos, &d.geom_xmat, g, p).filter(|_| !self.jumps);
@@ -102,7 +104,7 @@ impl RunMonitor {
     }
 
     /// Call after a step, or at the start.
-    pub(super) fn observe(&mut self, m: &Model, d: &Fields) {
+    pub fn observe(&mut self, m: &Model, d: &Fields) {
         if d.time < self.last || self.jumps {
             self.disturb(m, d);
         }
@@ -174,13 +176,18 @@ impl RunMonitor {
         }
     }
 
+    /// Drift speed of each body and each joint with friction at the end of the run, by name, m/s or rad/s.
+    pub fn drift_speeds(&self, m: &Model) -> Vec<(String, f64)> {
+        self.rest.speeds(m)
+    }
+
     /// Geoms that made contact.
-    pub(super) fn touching(&self) -> Vec<[usize; 2]> {
+    pub fn touching(&self) -> Vec<[usize; 2]> {
         self.touching.iter().map(|t| t.geoms).collect()
     }
 
     /// All faults, after the run.
-    pub(super) fn faults(mut self, m: &Model) -> Vec<Fault> {
+    pub fn faults(mut self, m: &Model) -> Vec<Fault> {
         let passed: Vec<Vec<usize>> =
             self.pairs.iter().filter(|p| p.done).map(|p| p.geoms.to_vec()).collect();
         let tunnels = |t: &&TouchingPair| !passed.iter().any(|p| t.geoms.iter().all(|g| p.contains(g)));
@@ -287,7 +294,7 @@ fn tunnelling(m: &Model, d: &Fields, [g, p]: [usize; 2], from: Vec3, to: Vec3) -
     let cause = if travel > thick + own_thickness {
         format!(
             "in one step of {} s it moves farther than both are thick, so no step finds a contact",
-            crate::run::two_digits(h)
+            two_digits(h)
         )
     } else if travel > thick {
         "in one step it moves farther than the other is thick, and is pushed out on the far side".to_string()
@@ -319,9 +326,9 @@ fn penetration(m: &Model, t: &TouchingPair) -> Fault {
     let cause = if t.time <= m.opt.timestep {
         "they overlap at the start".to_string()
     } else if ratio.is_finite() && ratio > 100.0 {
-        format!("one is {} times as heavy as the other", crate::run::two_digits(ratio))
+        format!("one is {} times as heavy as the other", two_digits(ratio))
     } else {
-        format!("the contact is soft: its time constant is {} s", crate::run::two_digits(time))
+        format!("the contact is soft: its time constant is {} s", two_digits(time))
     };
     Fault {
         kind: FaultKind::Penetrates,

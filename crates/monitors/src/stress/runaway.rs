@@ -10,7 +10,7 @@ use super::bodies::joint_of_dof;
 use super::causes::stiffness_cause;
 use super::fault::{Fault, FaultEvidence, FaultKind};
 use super::history::RunHistory;
-use crate::monitors::slides;
+use crate::slides;
 use labspec_core::math::norm;
 use labspec_core::{Fields, Model};
 

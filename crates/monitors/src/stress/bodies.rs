@@ -41,7 +41,7 @@ pub fn body_name(m: &Model, body: usize) -> String {
 }
 
 /// The name of a geom, or else of its body.
-pub(super) fn geom_name(m: &Model, g: usize) -> String {
+pub fn geom_name(m: &Model, g: usize) -> String {
     match m.names.geom.get(g) {
         Some(name) if !name.is_empty() => format!("\"{name}\""),
         _ => body_name(m, body_of(m, g)),
@@ -49,12 +49,12 @@ pub(super) fn geom_name(m: &Model, g: usize) -> String {
 }
 
 /// The joint of a degree of freedom, in words.
-pub(super) fn joint_of_dof(m: &Model, dof: usize) -> String {
+pub fn joint_of_dof(m: &Model, dof: usize) -> String {
     joint_name(m, &m.jnt_dofadr, joint::nv, dof)
 }
 
 /// The joint of a coordinate, in words.
-pub(super) fn joint_of_place(m: &Model, i: usize) -> String {
+pub fn joint_of_place(m: &Model, i: usize) -> String {
     joint_name(m, &m.jnt_qposadr, joint::nq, i)
 }
 
@@ -79,7 +79,7 @@ pub fn body_of(m: &Model, g: usize) -> usize {
 
 /// Pairs of geoms in which the second, which is finite, may stop the first. Returns at most `most` pairs, and whether there
 /// are more.
-pub(super) fn pairs(m: &Model, most: usize) -> (Vec<[usize; 2]>, bool) {
+pub fn pairs(m: &Model, most: usize) -> (Vec<[usize; 2]>, bool) {
     let mut list = Vec::new();
     let moves = |g: &usize| m.body_treeid.get(body_of(m, *g)).is_some_and(|&t| t >= 0);
     let (first, last): (Vec<usize>, Vec<usize>) = (0..m.ngeom).partition(moves);

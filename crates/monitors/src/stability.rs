@@ -12,7 +12,7 @@
 
 use labspec_core::math::{MINVAL, rows};
 use labspec_core::{Model, Obj, disable, integrator, joint, servo_gains, trntype};
-use labspec_finding::order;
+use labspec_finding::{order, without_zeros};
 
 /// A spring, servo or constraint that is unstable at the timestep of the model.
 #[derive(Clone, Debug, PartialEq)]
@@ -197,6 +197,34 @@ fn reference(m: &Model, [time, ratio]: [f64; 2]) -> Spring {
         [-time, -ratio]
     };
     Spring { stiff, explicit, implicit: 0.0 }
+}
+
+/// The name of the stiff part: `the servo "lift"`, `the spring of joint "knee"`.
+pub fn owner(model: &Model, s: &UnstablePart) -> String {
+    let names = model.names.of_kind(s.object);
+    let name = match names.get(s.id) {
+        Some(name) if !name.is_empty() => format!("\"{name}\""),
+        _ => s.id.to_string(),
+    };
+    match (s.part, s.object) {
+        (StiffPart::Servo, _) => format!("the servo {name}"),
+        (StiffPart::Constraint, Obj::Geom) => format!("the contact of geom {name}"),
+        (StiffPart::Constraint, Obj::Pair) => format!("the contact of pair {name}"),
+        (StiffPart::Constraint, _) => format!("the equality {name}"),
+        (part, object) => {
+            let what = if part == StiffPart::Limit { "limit" } else { "spring or damper" };
+            format!("the {what} of {} {name}", if object == Obj::Tendon { "tendon" } else { "joint" })
+        }
+    }
+}
+
+/// By how much it is too stiff: `1.8 times too stiff`, `just too stiff`.
+pub fn how_stiff(s: &UnstablePart) -> String {
+    match s.excess {
+        x if x < 1.1 => "just too stiff".into(),
+        x if x < 10.0 => format!("{} times too stiff", without_zeros(format!("{x:.1}"))),
+        x => format!("{x:.0} times too stiff"),
+    }
 }
 
 #[cfg(test)]
