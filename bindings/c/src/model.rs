@@ -5,10 +5,8 @@ use crate::fields;
 use crate::handles::{self, Handle, NewHandle};
 use crate::models::{GivenModels, ModelSource};
 use crate::status::{Failure, Outcome, Status, call};
-use facade::finding::Finding;
 use labspec_core::reflect::Object;
 use labspec_core::{self as core, Data, Full, Model, Obj};
-use labspec_finding::Lines;
 use std::ffi::c_char;
 use std::path::Path;
 use std::sync::{Arc, RwLock};
@@ -30,17 +28,7 @@ pub(crate) fn shared(model: Model) -> Arc<RwLock<Model>> {
 
 /// The findings of a model, with their lines.
 fn mistakes(xml: &str, e: core::Error) -> Failure {
-    if e.diagnostics().is_empty() {
-        return e.into();
-    }
-    let lines = Lines::new(xml);
-    let located = |f: &Finding| {
-        let is_main = f.path.is_empty();
-        let path = if is_main { Arc::from("model.xml") } else { Arc::clone(&f.path) };
-        let position = if is_main { Some(lines.position(xml, f.span.start)) } else { f.position };
-        Finding { path, position, ..f.clone() }
-    };
-    facade::Error::Findings(e.diagnostics().iter().map(located).collect()).into()
+    facade::Error::of_model(xml, &e).map_or_else(|| e.into(), Into::into)
 }
 
 /// Compiles a model from MJCF. `files` has the files that it includes or refers to, or is NULL.

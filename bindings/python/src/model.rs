@@ -2,10 +2,9 @@
 
 use crate::error::{error, refused, refused_by_engine};
 use crate::fields::{copied, is_live, is_writable, live, named, not_writable, numbers};
-use facade::finding::Finding;
 use labspec_core::reflect::{self, FieldId, Object, View, ViewMut};
 use labspec_core::{self as core, Data as EngineData, Full, Obj};
-use labspec_finding::{Lines, nearest};
+use labspec_finding::nearest;
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -222,15 +221,5 @@ fn foreign(name: &str) -> PyErr {
 
 /// The error for the findings of a model, with their lines.
 fn mistakes(xml: &str, e: &core::Error) -> PyErr {
-    if e.diagnostics().is_empty() {
-        return refused_by_engine(e);
-    }
-    let lines = Lines::new(xml);
-    let located = |f: &Finding| {
-        let is_main = f.path.is_empty();
-        let path = if is_main { Arc::from("model.xml") } else { Arc::clone(&f.path) };
-        let position = if is_main { Some(lines.position(xml, f.span.start)) } else { f.position };
-        Finding { path, position, ..f.clone() }
-    };
-    refused(&facade::Error::Findings(e.diagnostics().iter().map(located).collect()))
+    facade::Error::of_model(xml, e).map_or_else(|| refused_by_engine(e), |findings| refused(&findings))
 }

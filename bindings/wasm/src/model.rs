@@ -5,8 +5,7 @@ use crate::fields::{by_index, copied, is_live, place};
 use crate::files::PageModels;
 use labspec_core::reflect::{self, FieldId, Object, View, ViewMut};
 use labspec_core::{AccessSet, Data, Model, Obj, Plan, Planned};
-use labspec_finding::{Finding, Lines};
-use std::sync::{Arc, OnceLock};
+use std::sync::OnceLock;
 use wasm_bindgen::prelude::*;
 
 /// A compiled model, and the fields that the page can view in memory.
@@ -125,17 +124,7 @@ impl RawModel {
 
 /// The error for the findings of a model, with their lines.
 fn mistakes(xml: &str, e: &labspec_core::Error) -> JsValue {
-    if e.diagnostics().is_empty() {
-        return refused(e);
-    }
-    let lines = Lines::new(xml);
-    let located = |f: &Finding| {
-        let is_main = f.path.is_empty();
-        let path = if is_main { Arc::from("model.xml") } else { Arc::clone(&f.path) };
-        let position = if is_main { Some(lines.position(xml, f.span.start)) } else { f.position };
-        Finding { path, position, ..f.clone() }
-    };
-    thrown(&labspec::Error::Findings(e.diagnostics().iter().map(located).collect()))
+    labspec::Error::of_model(xml, e).map_or_else(|| refused(e), |findings| thrown(&findings))
 }
 
 /// Writes a field of the model through the table.

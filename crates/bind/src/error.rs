@@ -23,6 +23,26 @@ impl Error {
     }
 }
 
+impl Error {
+    /// The findings of the model `xml`, with locations: in included files their own, otherwise lines of `model.xml`. `None`
+    /// if the call failed for another reason.
+    pub fn of_model(xml: &str, failure: &labspec_core::Error) -> Option<Error> {
+        let findings = failure.diagnostics();
+        if findings.is_empty() {
+            return None;
+        }
+        let (main, lines) = (Arc::from("model.xml"), Lines::new(xml));
+        let located = |f: &Finding| match f.path.is_empty() {
+            false => f.clone(),
+            true => {
+                let position = Some(lines.position(xml, f.span.start));
+                Finding { path: Arc::clone(&main), position, ..f.clone() }
+            }
+        };
+        Some(Error::Findings(findings.iter().map(located).collect()))
+    }
+}
+
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
