@@ -26,7 +26,7 @@ use std::fmt::Write;
 
 /// The default number of lessons, the number of them that a sample has, and their seed.
 const LESSONS: usize = 60;
-const SAMPLE: usize = 20;
+const SAMPLE: usize = 12;
 const SEED: u64 = 32;
 /// The number of draws of claims of each kind in a lesson.
 const DRAWS: usize = 6;

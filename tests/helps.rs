@@ -7,7 +7,7 @@
 // A test that cannot read its own inputs must fail.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
-use crate::population::takes_all;
+use crate::population::{sample, takes_all};
 use crate::rules::report_of;
 use crate::support::{for_each, workspace};
 use labspec::rules::{self, Rule, example};
@@ -302,11 +302,15 @@ const MAX_TRIES: usize = 56;
 /// Longer examples are generated, and too long for all tries.
 const MAX_LENGTH: usize = 4000;
 
+/// A sample has one rule of `STEP`.
+const STEP: usize = 3;
+
 #[test]
 fn helps_done_literally_end_their_findings() {
-    let all: Vec<&Rule> = rules::all().collect();
+    let all: Vec<&Rule> = sample(rules::all().collect(), STEP);
     let list = std::fs::read_to_string(workspace().join("tests/helps/not_literal.txt")).unwrap();
-    let listed: Vec<&str> = list.lines().filter(|line| !line.starts_with('#')).collect();
+    let is_taken = |code: &&str| all.iter().any(|rule| rule.code == *code) || takes_all();
+    let listed: Vec<&str> = list.lines().filter(|line| !line.starts_with('#')).filter(is_taken).collect();
     let done = for_each(all.len(), |i| do_help(all[i], listed.contains(&all[i].code)));
     let mut counts: BTreeMap<Done, usize> = BTreeMap::new();
     let (mut open, mut helps) = (Vec::new(), String::new());

@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Decided by `chatter` in `stress/watch.rs`.
+/// Decided by `chatter` in `crates/monitors/src/stress/watch.rs`.
 pub const CHATTERS: &Rule = &Rule {
     code: "chatters",
     severity: Severity::Note,

@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Decided by `faults` in `stress/creep.rs`.
+/// Decided by `faults` in `crates/monitors/src/stress/creep.rs`.
 pub const CREEPS: &Rule = &Rule {
     code: "creeps",
     severity: Severity::Note,

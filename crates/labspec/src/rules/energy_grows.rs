@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Decided by `observe` in `monitors/growth.rs`.
+/// Decided by `observe` in `crates/monitors/src/growth.rs`.
 pub const ENERGY_GROWS: &Rule = &Rule {
     code: "energy-grows",
     severity: Severity::Warning,

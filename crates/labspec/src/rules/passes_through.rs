@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Decided by `observe` in `monitors/through.rs`.
+/// Decided by `observe` in `crates/monitors/src/through.rs`.
 pub const PASSES_THROUGH: &Rule = &Rule {
     code: "passes-through",
     severity: Severity::Warning,

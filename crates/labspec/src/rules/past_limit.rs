@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Decided by `observe` in `monitors/limits.rs`.
+/// Decided by `observe` in `crates/monitors/src/limits.rs`.
 pub const PAST_LIMIT: &Rule = &Rule {
     code: "past-limit",
     severity: Severity::Warning,

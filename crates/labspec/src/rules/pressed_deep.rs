@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Decided by `penetration` in `stress/watch.rs`.
+/// Decided by `penetration` in `crates/monitors/src/stress/watch.rs`.
 pub const PRESSED_DEEP: &Rule = &Rule {
     code: "pressed-deep",
     severity: Severity::Note,

@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Decided by `unbounded_speed` in `stress/runaway.rs`.
+/// Decided by `unbounded_speed` in `crates/monitors/src/stress/runaway.rs`.
 pub const RUNS_AWAY: &Rule = &Rule {
     code: "runs-away",
     severity: Severity::Warning,

@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Decided by `observe` in `monitors/sunk.rs`.
+/// Decided by `observe` in `crates/monitors/src/sunk.rs`.
 pub const SINKS_IN: &Rule = &Rule {
     code: "sinks-in",
     severity: Severity::Warning,

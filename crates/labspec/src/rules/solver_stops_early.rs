@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Decided by `observe` in `monitors/unsolved.rs`.
+/// Decided by `observe` in `crates/monitors/src/unsolved.rs`.
 pub const SOLVER_STOPS_EARLY: &Rule = &Rule {
     code: "solver-stops-early",
     severity: Severity::Warning,
