@@ -1,6 +1,7 @@
 //! Compares displayed lines with printed ones, word by word.
 
 use super::decimal::{Segment, segments};
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// The maximum number of differences that are described for one output.
@@ -9,7 +10,7 @@ pub(super) const MAX_DIFFERENCES: usize = 20;
 /// A word of the lesson.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Word<'t> {
-    pub(super) text: &'t str,
+    pub(super) text: Cow<'t, str>,
     /// Its bytes in the file.
     pub(super) span: Range<usize>,
 }
@@ -110,7 +111,7 @@ pub(super) fn compare_lines(
 ) -> Differences {
     let same = |line: &DisplayedLine<'_>, printed: &[&str]| {
         line.words.len() == printed.len()
-            && line.words.iter().zip(printed).all(|(word, printed)| is_same_word(word.text, printed))
+            && line.words.iter().zip(printed).all(|(word, printed)| is_same_word(&word.text, printed))
     };
     let mut differences = Differences::default();
     let head = displayed.iter().zip(printed).take_while(|(line, p)| same(line, p)).count();
@@ -136,13 +137,13 @@ pub(super) fn compare_lines(
 }
 
 fn join(words: &[Word<'_>]) -> String {
-    words.iter().map(|word| word.text).collect::<Vec<_>>().join(" ")
+    words.iter().map(|word| &*word.text).collect::<Vec<_>>().join(" ")
 }
 
 /// Compares the words of a line.
 fn compare_words(line: &DisplayedLine<'_>, printed: &[&str], differences: &mut Differences) {
     let words = &line.words;
-    let same = |word: &Word<'_>, printed: &&str| is_same_word(word.text, printed);
+    let same = |word: &Word<'_>, printed: &&str| is_same_word(&word.text, printed);
     let head = words.iter().zip(printed).take_while(|(word, p)| same(word, p)).count();
     let shorter = words.len().min(printed.len());
     let backwards = words.iter().rev().zip(printed.iter().rev()).take(shorter - head);
@@ -174,21 +175,21 @@ fn compare_words(line: &DisplayedLine<'_>, printed: &[&str], differences: &mut D
 
 /// Compares two words: each number alone if only numbers differ.
 fn compare_word(word: &Word<'_>, printed: &str, differences: &mut Differences) {
-    let [parts, printed_parts] = [word.text, printed].map(segments);
+    let [parts, printed_parts] = [&word.text, printed].map(segments);
     let numbers_only = parts.len() == printed_parts.len()
         && parts.iter().zip(&printed_parts).all(|(a, b)| match (&a.number, &b.number) {
-            (None, None) => text_of(word.text, a) == text_of(printed, b),
+            (None, None) => text_of(&word.text, a) == text_of(printed, b),
             (Some(_), Some(_)) => true,
             _ => false,
         });
     if !numbers_only {
-        if !is_same_word(word.text, printed) {
-            differences.add(DifferenceKind::Changed, word.span.clone(), word.text, printed);
+        if !is_same_word(&word.text, printed) {
+            differences.add(DifferenceKind::Changed, word.span.clone(), &word.text, printed);
         }
         return;
     }
     for (a, b) in parts.iter().zip(&printed_parts).filter(|(a, b)| !is_same_number(a, b)) {
-        let [displayed, printed] = [text_of(word.text, a), text_of(printed, b)];
+        let [displayed, printed] = [text_of(&word.text, a), text_of(printed, b)];
         differences.add(DifferenceKind::Changed, word.part(&a.range), displayed, printed);
     }
 }

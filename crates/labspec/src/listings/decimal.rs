@@ -134,9 +134,9 @@ impl Decimal {
 
 /// The digits of the next whole number.
 fn increment(digits: &str) -> String {
-    let kept = digits.trim_end_matches('9');
-    let nines = digits.len() - kept.len();
-    let (start, last) = kept.split_at(kept.len().saturating_sub(1));
+    let stem = digits.trim_end_matches('9');
+    let nines = digits.len() - stem.len();
+    let (start, last) = stem.split_at(stem.len().saturating_sub(1));
     let next = last.bytes().next().map_or('1', |b| char::from(b + 1));
     format!("{start}{next}{}", "0".repeat(nines))
 }

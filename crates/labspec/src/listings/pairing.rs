@@ -134,7 +134,7 @@ pub(super) fn displayed_lines(body: &Text) -> Vec<DisplayedLine<'_>> {
     for line in body.value.split_inclusive('\n') {
         let words: Vec<Word<'_>> = word_ranges(line)
             .map(|range| Word {
-                text: line.get(range.clone()).unwrap_or(""),
+                text: line.get(range.clone()).unwrap_or("").into(),
                 span: body.span_of(at + range.start..at + range.end),
             })
             .collect();

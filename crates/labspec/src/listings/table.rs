@@ -1,6 +1,7 @@
 //! The rows of a Markdown table that displays an output.
 
 use super::compare::{DisplayedLine, Word, word_ranges};
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// Characters around a value in a cell: code, emphasis, formulas.
@@ -54,6 +55,11 @@ fn cells(row: &str) -> Vec<Range<usize>> {
     all
 }
 
+/// The text of a cell in which a bar is escaped.
+fn unescape(text: &str) -> Cow<'_, str> {
+    if text.contains("\\|") { text.replace("\\|", "|").into() } else { text.into() }
+}
+
 fn read_row(row: &str, offset: usize) -> DisplayedLine<'_> {
     let mut words = Vec::new();
     for cell in cells(row) {
@@ -62,7 +68,7 @@ fn read_row(row: &str, offset: usize) -> DisplayedLine<'_> {
         let start = cell.start + text.len() - inside.len();
         let inside = inside.trim_end().trim_end_matches(MARKUP);
         words.extend(word_ranges(inside).map(|range| Word {
-            text: inside.get(range.clone()).unwrap_or(""),
+            text: unescape(inside.get(range.clone()).unwrap_or("")),
             span: offset + start + range.start..offset + start + range.end,
         }));
     }
