@@ -40,6 +40,7 @@ mod ledger;
 mod lessons;
 mod levels;
 mod links;
+mod listings;
 mod lists;
 mod loads;
 #[cfg(feature = "lsp")]

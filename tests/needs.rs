@@ -14,7 +14,7 @@ use std::sync::Mutex;
 /// Tests with the first missing prerequisite of each.
 static MISSING: Mutex<BTreeMap<String, String>> = Mutex::new(BTreeMap::new());
 
-/// Whether a prerequisite exists: `node`, or a path relative to the workspace (`../shared/corpus`). Must be called before
+/// Whether a prerequisite exists: `node`, `python3`, `unshare` (namespaces of users and networks), or a path relative to the workspace (`../shared/corpus`). Must be called before
 /// anything else; if it returns `false`, the test must return.
 pub(crate) fn needs(what: &str) -> bool {
     if is_available(what) {
@@ -36,7 +36,11 @@ pub(crate) fn requires_all() -> bool {
 
 fn is_available(what: &str) -> bool {
     match what {
-        "node" => Command::new("node").arg("--version").output().is_ok_and(|o| o.status.success()),
+        "node" | "python3" => Command::new(what).arg("--version").output().is_ok_and(|o| o.status.success()),
+        "unshare" => {
+            let options = ["--user", "--map-root-user", "--net", "--pid", "--kill-child=KILL", "true"];
+            Command::new("unshare").args(options).output().is_ok_and(|o| o.status.success())
+        }
         place => Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(place).exists(),
     }
 }

@@ -312,7 +312,7 @@ fn files_of_the_language_form_no_import_cycles() {
 
 /// The pipeline of a lesson, in order: its text, its contents, the rules, the meaning for the engine, runs, verification of
 /// claims, and reports. Facades come last.
-const PIPELINE: [&str; 27] = [
+const PIPELINE: [&str; 28] = [
     "printable",
     "interrupt",
     "threads",
@@ -327,6 +327,7 @@ const PIPELINE: [&str; 27] = [
     "models",
     "lint",
     "ledger",
+    "listings",
     "bind",
     "format",
     "reference",

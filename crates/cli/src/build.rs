@@ -163,6 +163,7 @@ fn check_course(a: &BuildArguments) -> Result<CourseResults, Failure> {
         level: CheckLevel::FULL,
         policy: &a.policy,
         baseline: None,
+        listings: None,
         with_bases: false,
         cross_check: CrossCheckRequest::default(),
         with_curves: false,

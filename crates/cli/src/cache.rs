@@ -100,6 +100,16 @@ impl Cache {
         digest::hex_of(&inputs.into_iter().chain(others).chain(data).collect::<Vec<_>>())
     }
 
+    /// A text that was stored, if it is complete.
+    pub(super) fn load_text(&self, slot: &str) -> Option<String> {
+        self.load(slot).as_deref().and_then(whole).map(str::to_string)
+    }
+
+    /// Stores a text, unless the cache is off.
+    pub(super) fn save_text(&self, slot: &str, text: &str) {
+        self.save(slot, with_digest(text));
+    }
+
     fn load(&self, slot: &str) -> Option<String> {
         if let Some(memory) = &self.memory
             && let Some(text) = memory.lock().unwrap_or_else(PoisonError::into_inner).get(slot)
@@ -120,7 +130,7 @@ impl Cache {
 }
 
 /// The folder of the cache on this machine. No results are stored if `LABSPEC_CACHE` is empty or `off`.
-fn folder() -> Option<PathBuf> {
+pub(super) fn folder() -> Option<PathBuf> {
     let set = |name: &str| std::env::var_os(name).map(PathBuf::from);
     let full = |path: &PathBuf| path.is_absolute();
     if let Some(folder) = set("LABSPEC_CACHE") {

@@ -7,6 +7,7 @@ use super::collect::{STDIN, collect};
 use super::common::{Color, CommandOutcome, Failure, ModelOptions};
 use super::course::{CheckRequest, CrossCheckRequest};
 use super::fix::{FixMode, fix};
+use super::listings::ListingRunner;
 use super::output::{PlannedOutput, check_outputs_writable};
 use super::output_kind::OutputKind;
 use super::policy::PolicyOptions;
@@ -78,6 +79,10 @@ pub(super) struct CheckArguments {
     /// and the exit code is 3 if no problems are found
     #[arg(long)]
     no_run: bool,
+    /// Also run the Python listings that have an output below them, without a network and with limits, and compare the
+    /// output; [listings] in labspec.toml has their settings. Run only listings that you trust with your files
+    #[arg(long, conflicts_with = "no_run")]
+    listings: bool,
     /// Skip named files that contain no lab, quiz or model, as in folders, and succeed if nothing is left: for hooks that
     /// name every changed file
     #[arg(long)]
@@ -100,6 +105,16 @@ pub(super) struct CheckArguments {
     /// Report the changes since a recorded check: verdicts and values, with changed settings and models
     #[arg(long, value_name = "FILE", conflicts_with = "no_run")]
     since: Option<PathBuf>,
+}
+
+/// What a command checks.
+#[derive(Clone, Copy)]
+struct CheckMode {
+    level: CheckLevel,
+    skip_others: bool,
+    listings: bool,
+    /// Whether every measure is printed.
+    with_evidence: bool,
 }
 
 /// The files that a check writes in addition to its output, and the earlier record with which it is compared.
@@ -125,23 +140,26 @@ pub(super) fn check_command(a: &CheckArguments) -> Result<CommandOutcome, Failur
         (a.fix || a.diff || a.unsafe_fixes).then_some(FixMode { guesses: a.unsafe_fixes, diff: a.diff });
     let paths =
         RecordPaths { write: a.record.as_deref(), html: a.html.as_deref(), since: a.since.as_deref() };
-    run_check(&a.common, level, a.skip_others, false, fix, paths)
+    let mode = CheckMode { level, skip_others: a.skip_others, listings: a.listings, with_evidence: false };
+    run_check(&a.common, mode, fix, paths)
 }
 
 pub(super) fn verify_command(a: &VerifyArguments) -> Result<CommandOutcome, Failure> {
-    run_check(a, CheckLevel::CLAIMS, false, true, None, RecordPaths::default())
+    let mode =
+        CheckMode { level: CheckLevel::CLAIMS, skip_others: false, listings: false, with_evidence: true };
+    run_check(a, mode, None, RecordPaths::default())
 }
 
 /// Checks once, or again whenever a file changes.
 fn run_check(
     a: &VerifyArguments,
-    level: CheckLevel,
-    skip_others: bool,
-    with_evidence: bool,
+    mode: CheckMode,
     fix_mode: Option<FixMode>,
     paths: RecordPaths<'_>,
 ) -> Result<CommandOutcome, Failure> {
+    let CheckMode { level, skip_others, with_evidence, .. } = mode;
     let cache = Cache::open(a.no_cache, a.watch);
+    let listings = mode.listings.then(|| ListingRunner::new(&cache));
     let processors = || std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
     let inputs = read_inputs(a, fix_mode.is_some(), paths)?;
     let is_human = a.format == CheckFormat::Human;
@@ -153,6 +171,7 @@ fn run_check(
         level,
         policy: &a.policy,
         baseline: inputs.baseline.as_ref(),
+        listings: listings.as_ref(),
         with_bases: paths.write.is_some() || inputs.previous.is_some() || paths.html.is_some(),
         cross_check: CrossCheckRequest {
             collect_runs: a.judge_request.is_some(),
@@ -189,6 +208,7 @@ fn run_check(
     }
     let settings: Vec<&Path> = a.policy.config().into_iter().chain(a.baseline.as_deref()).collect();
     watch::watch(&a.paths, &settings, || {
+        listings.iter().for_each(ListingRunner::forget);
         let results = check_lessons(&request, &cache)?;
         Ok((report_results(&output, &results), results.dependencies))
     })

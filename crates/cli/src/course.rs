@@ -2,6 +2,7 @@
 
 use super::baseline::Baseline;
 use super::common::ModelOptions;
+use super::listings::ListingRunner;
 use super::policy::{Policy, PolicyOptions};
 use labspec::check::{
     Basis, CheckLevel, Checked, CrossCheck, ReferenceRecording, SuppressedFinding, VerifyCurves,
@@ -25,6 +26,8 @@ pub(super) struct CheckRequest<'a> {
     pub(super) policy: &'a PolicyOptions,
     /// Known findings, which are not reported again.
     pub(super) baseline: Option<&'a Baseline>,
+    /// Runs the listings of lessons, if requested.
+    pub(super) listings: Option<&'a ListingRunner<'a>>,
     /// Whether the basis of every verdict is collected.
     pub(super) with_bases: bool,
     pub(super) cross_check: CrossCheckRequest<'a>,

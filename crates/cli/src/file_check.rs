@@ -5,6 +5,7 @@ use super::collect::ListedFile;
 use super::common::{Failure, interrupted};
 use super::course::{CheckRequest, CrossCheckRequest, SuppressedFindings};
 use super::digest;
+use super::policy::Policy;
 use super::target::{model_folder_within, root};
 use labspec::bind::parts::Hash;
 use labspec::bind::scene::{Models, check_model_file};
@@ -14,7 +15,7 @@ use labspec::lint::{self, ModelFolder, load_lesson_at, load_lesson_file};
 use labspec::report::printable_path;
 use labspec::rules;
 use labspec::source::{SourceFile, Sources, read_text};
-use labspec::spec::{Conventions, FileKind, Lesson, kind_of};
+use labspec::spec::{FileKind, Lesson, kind_of};
 use labspec::threads;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -109,7 +110,7 @@ pub(super) fn check_file(
     request: &CheckRequest<'_>,
     cache: &Cache,
     task: &FileTask,
-    conventions: &Conventions,
+    policy: &Policy,
     file: &ListedFile,
     models: &[Models],
 ) -> FileOutcome {
@@ -126,7 +127,7 @@ pub(super) fn check_file(
                 FileOutcome::Model { loads: model.is_some(), findings, sources }
             }
             FileTask::CheckLesson(number) => match models.get(*number) {
-                Some(models) => check_lesson(request, cache, (path, *named), conventions, models),
+                Some(models) => check_lesson(request, cache, (path, *named), policy, models),
                 None => FileOutcome::Other,
             },
         }
@@ -139,11 +140,11 @@ fn check_lesson(
     request: &CheckRequest<'_>,
     cache: &Cache,
     (path, named): (&Path, bool),
-    conventions: &Conventions,
+    policy: &Policy,
     models: &Models,
 ) -> FileOutcome {
     let lesson = match read_lesson(request, path, models) {
-        Ok(lesson) => Lesson { conventions: conventions.clone(), ..lesson },
+        Ok(lesson) => Lesson { conventions: policy.conventions.clone(), ..lesson },
         Err(why) => return FileOutcome::Refused(why),
     };
     if !named && is_other_json(&lesson) {
@@ -155,6 +156,9 @@ fn check_lesson(
         Ok(outcome) => outcome,
         Err(panic) => return FileOutcome::Lesson(Box::new(cancelled_lesson(lesson, &panic))),
     };
+    let listings = request.listings.map_or_else(Vec::new, |runner| {
+        runner.check_lesson(&lesson, &policy.listings, &mut outcome.findings)
+    });
     // Runs may have been incomplete, and an incomplete check has no result.
     if interrupted() {
         return FileOutcome::Interrupted;
@@ -172,7 +176,7 @@ fn check_lesson(
         return FileOutcome::Interrupted;
     }
     let curves = if request.with_curves { check::curves(&lesson, models) } else { Vec::new() };
-    let checked = check::join(lesson, outcome, request.level);
+    let checked = Checked { listings, ..check::join(lesson, outcome, request.level) };
     let suppressed = SuppressedFindings::default();
     FileOutcome::Lesson(Box::new(LessonOutcome {
         checked,

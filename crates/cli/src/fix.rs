@@ -60,7 +60,10 @@ pub(super) fn fix(request: &CheckRequest<'_>, mode: FixMode) -> Result<AppliedFi
         lesson.conventions = policy.conventions.clone();
         let models = Models::new(folder);
         let look = |lesson: Lesson| {
-            let found = check::run_checks(&lesson, &models, request.level);
+            let mut found = check::run_checks(&lesson, &models, request.level);
+            if let Some(listings) = request.listings {
+                listings.check_lesson(&lesson, &policy.listings, &mut found.findings);
+            }
             let broken = lesson.broken.len();
             let checked = check::join(lesson, found, request.level);
             let mut findings = checked.findings;

@@ -25,6 +25,7 @@ mod init;
 mod json_schema;
 mod judge;
 mod lab_args;
+mod listings;
 #[cfg(feature = "lsp")]
 mod lsp;
 mod machine;

@@ -75,6 +75,8 @@ struct ClaimCounts {
     closed_form: Count,
     /// Labs whose traces and readouts are as stored in the snapshot of their lesson.
     snapshot: Count,
+    /// Listings that print the output below them (`--listings`).
+    listing: Count,
 }
 
 impl ClaimCounts {
@@ -90,6 +92,7 @@ impl ClaimCounts {
             quoted_number: ledger.count(Subject::Quote),
             closed_form: ledger.count(Subject::ClosedForm),
             snapshot: ledger.count(Subject::Snapshot),
+            listing: ledger.count(Subject::Listing),
         }
     }
 }

@@ -87,7 +87,9 @@ fn write_lesson(text: &mut String, c: &Checked, entries: &[&Entry], with_evidenc
 fn joined_entries(entries: &[&Entry]) -> usize {
     let Some(first) = entries.first() else { return 0 };
     let is_plain = matches!(first.state, State::True(_) | State::Skipped);
-    if !is_plain || matches!(first.subject, Subject::Lab | Subject::Widget | Subject::Snapshot) {
+    if !is_plain
+        || matches!(first.subject, Subject::Lab | Subject::Widget | Subject::Snapshot | Subject::Listing)
+    {
         return 1;
     }
     let same = |e: &&&Entry| e.subject == first.subject && e.owner == first.owner && e.word == first.word;
@@ -117,6 +119,7 @@ fn format_entries(entry: &Entry, n: usize) -> Option<String> {
             }
         }
         Subject::Snapshot => format!("{word:<10} {owner}, its snapshot{remark}"),
+        Subject::Listing => format!("{word:<10} {owner}{}{remark}", titled(what)),
         Subject::Answer if good => format!("{word:<10} {owner}"),
         Subject::Answer => format!("{word:<10} {owner}{remark}"),
         Subject::Option => format!("{word:<10} {owner}, option {what}"),

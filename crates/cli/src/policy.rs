@@ -2,6 +2,7 @@
 
 use super::common::Failure;
 use super::conventions;
+use super::listings::ListingSettings;
 use super::routes::Routes;
 use super::widgets::{self, PageWidget};
 use ignore::gitignore::{Gitignore, GitignoreBuilder};
@@ -112,6 +113,8 @@ pub(super) struct Policy {
     pub(super) routes: Routes,
     /// How the texts of the lesson are read.
     pub(super) conventions: Conventions,
+    /// How listings are run.
+    pub(super) listings: ListingSettings,
 }
 
 impl Policy {
@@ -143,6 +146,7 @@ struct PolicyFile {
     widgets: Vec<PageWidget>,
     routes: Routes,
     conventions: Conventions,
+    listings: ListingSettings,
     paths: Vec<PathSettings>,
 }
 
@@ -215,6 +219,7 @@ impl Policies {
             widgets,
             routes: near.routes.clone(),
             conventions: near.conventions.clone(),
+            listings: near.listings.clone(),
         })
     }
 
@@ -259,9 +264,8 @@ impl Policies {
         add("deny", &self.options.deny, command);
         add("widgets", &near.widgets.iter().map(PageWidget::line).collect::<Vec<_>>(), &file);
         add("routes", &near.routes.lines().collect::<Vec<_>>(), &file);
-        conventions::lines(&near.conventions)
-            .into_iter()
-            .for_each(|(name, value)| add(name, &[value], &file));
+        let conventions = conventions::lines(&near.conventions).into_iter();
+        conventions.chain(near.listings.lines()).for_each(|(name, value)| add(name, &[value], &file));
         Ok((settings.as_ref().map(|settings| settings.path.clone()), all))
     }
 
@@ -305,8 +309,18 @@ impl Globs {
 }
 
 /// The keys of settings, and of settings for some paths.
-const KEYS: [&str; 9] =
-    ["select", "ignore", "deny", "widgets", "routes", "languages", "macros", "front-matter", "paths"];
+const KEYS: [&str; 10] = [
+    "select",
+    "ignore",
+    "deny",
+    "widgets",
+    "routes",
+    "languages",
+    "macros",
+    "front-matter",
+    "listings",
+    "paths",
+];
 const OF_PATHS: [&str; 3] = ["match", "ignore", "deny"];
 
 fn read(path: &Path) -> Result<PolicyFile, Failure> {
@@ -327,6 +341,7 @@ fn read(path: &Path) -> Result<PolicyFile, Failure> {
     let widgets = widgets::read(&folder, table.get("widgets")).map_err(cannot)?;
     let routes = Routes::read(&folder, table.get("routes")).map_err(cannot)?;
     let conventions = conventions::read(|name| string_list(&table, name, false)).map_err(cannot)?;
+    let listings = ListingSettings::read(&folder, table.get("listings")).map_err(cannot)?;
     let mut paths = Vec::new();
     for entry in of_paths(&table).map_err(cannot)? {
         reject_unknown_keys(entry, &OF_PATHS).map_err(cannot)?;
@@ -338,7 +353,8 @@ fn read(path: &Path) -> Result<PolicyFile, Failure> {
         let list = |name: &str| string_list(entry, name, true).map_err(cannot);
         paths.push(PathSettings { patterns, globs, ignore: list("ignore")?, deny: list("deny")? });
     }
-    Ok(PolicyFile { path: path.to_path_buf(), select, ignore, deny, widgets, routes, conventions, paths })
+    let path = path.to_path_buf();
+    Ok(PolicyFile { path, select, ignore, deny, widgets, routes, conventions, listings, paths })
 }
 
 /// The tables of `[[paths]]`; empty if there are none.
@@ -455,6 +471,7 @@ mod tests {
         assert!(error("languages = [\"dee\"]").contains("did you mean `de`"));
         assert!(error("languages = [\"xxxx\"]").contains("use one of en, de"));
         assert!(error("macros = [\"{%\"]").contains("a closing delimiter"));
+        assert!(error("[listings]\nfile = []").contains("did you mean `files`"));
         assert!(error("front_matter = []").contains("did you mean `front-matter`"));
     }
 }

@@ -115,6 +115,7 @@ impl Backend for Author<'_> {
             level,
             policy: &self.a.policy,
             baseline: None,
+            listings: None,
             with_bases: false,
             cross_check: CrossCheckRequest::default(),
             with_curves: false,

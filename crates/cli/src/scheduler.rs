@@ -115,7 +115,7 @@ fn check_files(
         if request.progress {
             show_progress(&format!("checking {} of {}: {}", i + 1, jobs.len(), printable_path(&job.file.0)));
         }
-        let mut outcome = check_file(request, cache, &job.task, &job.policy.conventions, &job.file, models);
+        let mut outcome = check_file(request, cache, &job.task, &job.policy, &job.file, models);
         suppress_findings(request, &job.policy, &mut outcome);
         if let Some(color) = request.findings_in_color {
             printer.add(i, findings_text(&outcome, color));
@@ -216,6 +216,7 @@ fn add_course_findings(
     results.dependencies.extend(others.map(|other| PathBuf::from(&other.path)));
     let data = results.checked.iter().flat_map(|c| &c.lesson.data);
     results.dependencies.extend(data.map(|file| file.path.clone()));
+    results.dependencies.extend(request.listings.iter().flat_map(|listings| listings.dependencies()));
     let findings = &mut results.course_findings;
     findings.extend(orphaned_snapshots(request.paths).iter().map(|path| orphaned_snapshot_finding(path)));
     let lessons: Vec<_> = results.checked.iter().map(|c| &c.lesson).collect();
@@ -325,6 +326,7 @@ mod tests {
                 level: CheckLevel::FULL,
                 policy: &PolicyOptions::default(),
                 baseline: None,
+                listings: None,
                 with_bases: false,
                 cross_check: CrossCheckRequest::default(),
                 with_curves: false,

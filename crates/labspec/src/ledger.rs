@@ -33,11 +33,13 @@ pub enum Subject {
     ClosedForm,
     /// The traces and readouts of a lab equal those in the snapshot of its lesson.
     Snapshot,
+    /// A listing prints the output that the lesson displays below it.
+    Listing,
 }
 
 impl Subject {
     /// Every subject, in the order of summaries.
-    pub const ALL: [Subject; 10] = [
+    pub const ALL: [Subject; 11] = [
         Subject::File,
         Subject::Model,
         Subject::Lab,
@@ -48,6 +50,7 @@ impl Subject {
         Subject::Quote,
         Subject::ClosedForm,
         Subject::Snapshot,
+        Subject::Listing,
     ];
 
     /// The singular in words.
@@ -63,6 +66,7 @@ impl Subject {
             Subject::Quote => "quoted number",
             Subject::ClosedForm => "closed form",
             Subject::Snapshot => "snapshot",
+            Subject::Listing => "listing",
         }
     }
 }
@@ -399,6 +403,10 @@ fn summary_counts(subject: Subject, c: &Count) -> Vec<[(usize, &'static str); 2]
         Subject::Option => vec![[(c.not_claimed, "not decided"), (0, "")]],
         Subject::Snapshot => vec![
             [(c.simulated, "as stored"), (c.wrong, "not as stored")],
+            [(c.unchecked, "could not be checked"), (c.skipped, "left out")],
+        ],
+        Subject::Listing => vec![
+            [(c.simulated, "as shown"), (c.wrong, "not as shown")],
             [(c.unchecked, "could not be checked"), (c.skipped, "left out")],
         ],
         Subject::Answer | Subject::Quote | Subject::ClosedForm => vec![

@@ -10,6 +10,7 @@
 //! * [`lint`]: the table of rules and the structural checks
 //! * [`format`](mod@format): formats the code of a lesson
 //! * [`ledger`]: every claim with its state, from which all verdicts and exit codes follow
+//! * [`listings`]: Python listings with the outputs that a lesson displays
 //! * [`finding`], [`report`]: findings, and their output for people and programs
 //!
 //! Frontends use three objects, and everything else through them: a [`Player`] is a lab that is open on a page, a
@@ -27,6 +28,7 @@ pub mod json;
 pub mod language;
 pub mod ledger;
 pub mod lint;
+pub mod listings;
 pub mod markdown;
 pub mod models;
 mod pairwise;

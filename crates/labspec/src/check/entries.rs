@@ -58,6 +58,7 @@ fn lesson(c: &Checked, ledger: &mut Ledger) {
     entries.add_widgets();
     entries.add_snapshots();
     entries.add_claims();
+    entries.add_listings();
     add_skipped_parts(c, &mut all);
     for mut entry in all {
         // A page cannot read a block with invalid JSON, even if the parser recovered from the errors.
@@ -149,6 +150,14 @@ impl LessonEntries<'_> {
             let about =
                 self.entry(Subject::Snapshot, &owner, &snapshot.span, snapshot.state, snapshot.word());
             self.entries.push(Entry { remark: snapshot.remark(), ..about });
+        }
+    }
+
+    fn add_listings(&mut self) {
+        for listing in &self.checked.listings {
+            let about =
+                self.entry(Subject::Listing, &listing.name, &listing.span, listing.state, listing.word);
+            self.entries.push(Entry { what: listing.file.clone(), remark: listing.remark.clone(), ..about });
         }
     }
 

@@ -38,6 +38,7 @@ pub(crate) use prepared_lab::PreparedLab;
 use crate::bind::Programs;
 use crate::bind::scene::Models;
 use crate::finding::{self, Finding, InFile, Severity};
+use crate::listings::ListingResult;
 use crate::rules;
 use crate::source::{SourceMap, Text};
 use crate::spec::{BreakExpectation, Lab, LabAddress, Lesson, ModelSource};
@@ -77,6 +78,8 @@ pub struct Checked {
     pub claims: Vec<Claim>,
     /// For each lab with a snapshot, whether it reproduces the stored values.
     pub snapshots: Vec<SnapshotResult>,
+    /// The listings that were run, or should have been.
+    pub listings: Vec<ListingResult>,
     /// Findings that the author has suppressed with a reason.
     pub allowed: Vec<SuppressedFinding>,
     /// The level of the check.
@@ -236,7 +239,7 @@ pub fn join(lesson: Lesson, found: LabOutcome, level: CheckLevel) -> Checked {
     }
     finding::sort(&mut all);
     debug_assert_eq!(undeclared_severity(&all), None, "a severity that the rule does not declare");
-    Checked { lesson, findings: all, labs, claims, snapshots, allowed, level }
+    Checked { lesson, findings: all, labs, claims, snapshots, listings: Vec::new(), allowed, level }
 }
 
 /// Loads the model of a lab, binds its programs, and checks their behaviour according to `level`.
