@@ -3,7 +3,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use crate::lsp::Editor;
+use crate::lsp_editor::Editor;
 use crate::program::{CLEAN, run_in, wrong};
 use crate::support::{sorted_files, workspace};
 use serde_json::{Value, json};

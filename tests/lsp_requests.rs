@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use crate::lsp::{Editor, edited, lab, marked, place};
+use crate::lsp_editor::{Editor, edited, lab, marked, place};
 use crate::program::{CLEAN, folder, run_in};
 use crate::support::{sorted_files, workspace};
 use serde_json::{Value, json};

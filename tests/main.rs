@@ -6,6 +6,7 @@ mod allocation;
 mod answer_forms;
 mod answers;
 mod authors;
+mod authors_proposals;
 mod breaking;
 mod budget;
 mod clauses;
@@ -23,6 +24,7 @@ mod examples;
 mod false_claims;
 mod file_lengths;
 mod files;
+mod files_of_others;
 mod fixes;
 mod format;
 mod forms;
@@ -46,6 +48,12 @@ mod loads;
 #[cfg(feature = "lsp")]
 mod lsp;
 #[cfg(feature = "lsp")]
+mod lsp_documents;
+#[cfg(feature = "lsp")]
+mod lsp_editor;
+#[cfg(feature = "lsp")]
+mod lsp_features;
+#[cfg(feature = "lsp")]
 mod lsp_findings;
 #[cfg(feature = "lsp")]
 mod lsp_requests;
@@ -57,6 +65,7 @@ mod numbers;
 mod parity;
 mod partners;
 mod plan;
+mod plan_stages;
 mod planned;
 mod playback;
 mod player;
@@ -68,6 +77,7 @@ mod program;
 mod quote_forms;
 mod readme;
 mod recorded;
+mod recorded_forward;
 mod refresh;
 mod reports;
 mod reproduction;
@@ -97,6 +107,8 @@ mod tutorial;
 mod twenty;
 mod under_hands;
 mod verify;
+mod verify_quotes;
+mod verify_runs;
 mod without_value;
 mod zoo;
 mod zz;
