@@ -1,4 +1,5 @@
-//! Prerequisites of some tests that not every machine has: the material in `../shared`, and node.
+//! Prerequisites of some tests that not every machine has: the material in `../shared`, node, Python, and namespaces of the
+//! system.
 //!
 //! Without its prerequisite, a test checks nothing, passes, and prints this past the output capture of `cargo test`, with the
 //! number of such tests so far; `zz.rs` prints the total. With `LABSPEC_REQUIRE=all`, as in `.ci/run`, it fails.
@@ -14,13 +15,14 @@ use std::sync::Mutex;
 /// Tests with the first missing prerequisite of each.
 static MISSING: Mutex<BTreeMap<String, String>> = Mutex::new(BTreeMap::new());
 
-/// Whether a prerequisite exists: `node`, `python3`, `unshare` (namespaces of users and networks), or a path relative to the workspace (`../shared/corpus`). Must be called before
-/// anything else; if it returns `false`, the test must return.
+/// Whether a prerequisite exists: `node`, `python3`, `unshare` (namespaces of users and networks), or a path relative to the
+/// workspace (`../shared/corpus`). Must be called before anything else; if it returns `false`, the test must return. Nobody can
+/// install what a kernel forbids: tests that need `unshare` are skipped there in every case.
 pub(crate) fn needs(what: &str) -> bool {
     if is_available(what) {
         return true;
     }
-    assert!(!requires_all(), "{}", refusal(what));
+    assert!(!requires_all() || what == "unshare", "{}", refusal(what));
     let test = std::thread::current().name().unwrap_or("a test").to_string();
     let mut missing = MISSING.lock().unwrap();
     if missing.insert(test.clone(), what.into()).is_none() {
