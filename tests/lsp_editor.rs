@@ -11,7 +11,7 @@ use std::process::{Child, ChildStdin, ChildStdout, Stdio};
 /// An editor that sends and receives messages.
 pub(crate) struct Editor {
     pub(crate) child: Child,
-    to: ChildStdin,
+    pub(crate) to: ChildStdin,
     from: BufReader<ChildStdout>,
     pub(crate) root: String,
     next: u64,
