@@ -1,4 +1,4 @@
-//! The stages that a plan keeps are computed and measured, those that it leaves out do not compute anything, and each has a reason.
+//! The stages that a plan keeps are computed and measured, those that it leaves out compute nothing, and each has a reason.
 
 #![allow(clippy::unwrap_used)]
 
