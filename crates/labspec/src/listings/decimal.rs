@@ -13,6 +13,8 @@ pub(super) struct Decimal {
     digits: String,
     /// The power of ten of the last digit.
     last: i64,
+    /// As written; 0 without one.
+    exponent: i64,
 }
 
 /// A part of a word: a number, or other characters.
@@ -105,7 +107,7 @@ impl Decimal {
         }
         let digits = format!("{whole}{fraction}").trim_start_matches('0').to_string();
         let last = exponent.checked_sub(i64::try_from(fraction.len()).ok()?)?;
-        Some(Decimal { negative: text.starts_with(is_minus), digits, last })
+        Some(Decimal { negative: text.starts_with(is_minus), digits, last, exponent })
     }
 
     /// Whether this number is the printed one, rounded to the digits that this number has. Both directions are accepted for a
@@ -127,7 +129,9 @@ impl Decimal {
         }
         candidates.iter().any(|rounded| {
             let is_zero = rounded.is_empty() && self.digits.is_empty();
-            *rounded == self.digits && (is_zero || self.negative == printed.negative)
+            // A zero has no sign; its exponent is a displayed digit like any other.
+            let is_same_zero = is_zero && (!printed.digits.is_empty() || self.exponent == printed.exponent);
+            *rounded == self.digits && if is_zero { is_same_zero } else { self.negative == printed.negative }
         })
     }
 }

@@ -130,17 +130,18 @@ pub(super) fn compare_output(listing: &Listing<'_>, printed: &str, findings: &mu
             let printed = printed_rows(&lines, table.rows.len());
             (compare_lines(&table.rows, &printed, table.span.end), None)
         }
-        DisplayedOutput::Block(block) => {
+        DisplayedOutput::Block(block, raw) => {
             let words: Vec<Vec<&str>> = lines.iter().map(|line| line.split_whitespace().collect()).collect();
             let differences = compare_lines(&displayed_lines(&block.body), &words, block.info.end);
-            (differences, replacement(block, &lines))
+            (differences, replacement(block, raw, &lines))
         }
     };
     let Differences { listed, more } = differences;
     let start = findings.len();
     findings.extend(listed.iter().map(difference_finding));
     if more > 0 {
-        let message = format!("the output has {} more", counted(more, "difference"));
+        let differences = if more == 1 { "difference" } else { "differences" };
+        let message = format!("the output has {more} more {differences}");
         let place = listing.span();
         findings.push(Finding::new(LISTING_OUTPUT, place.start..place.start, message).help("see the others"));
     }
@@ -182,18 +183,18 @@ const MAX_REPLACEMENT: usize = 64 << 10;
 
 /// The bytes of the displayed output, and the printed one. `None` if the block has prefixes on its lines (a quote, a list), or
 /// could not contain the output.
-fn replacement(block: &Block, printed: &[&str]) -> Option<(Range<usize>, String)> {
+fn replacement(block: &Block, raw: &str, printed: &[&str]) -> Option<(Range<usize>, String)> {
     let body = &block.body;
     let is_harmless = |line: &&str| {
         let is_fence = line.trim_start().starts_with("```") || line.trim_start().starts_with("~~~");
         !is_fence && line.chars().all(|c| c == '\t' || !c.is_control())
     };
     let size: usize = printed.iter().map(|line| line.len() + 2).sum();
-    let is_plain = !body.value.is_empty() && body.map.is_unbroken(0..body.value.len());
+    let is_plain = !raw.is_empty() && raw.replace("\r\n", "\n") == body.value.replace("\r\n", "\n");
     if !is_plain || size > MAX_REPLACEMENT || !printed.iter().all(is_harmless) {
         return None;
     }
-    let end = if body.value.contains("\r\n") { "\r\n" } else { "\n" };
-    let last = if body.value.ends_with('\n') { end } else { "" };
+    let end = if raw.contains("\r\n") { "\r\n" } else { "\n" };
+    let last = if raw.ends_with('\n') { end } else { "" };
     Some((body.span(), format!("{}{last}", printed.join(end))))
 }

@@ -35,8 +35,8 @@ pub struct Listing<'l> {
 /// The output that a lesson displays.
 #[derive(Debug)]
 pub enum DisplayedOutput<'l> {
-    /// A fence.
-    Block(&'l Block),
+    /// A fence, and the bytes of its text in the file.
+    Block(&'l Block, &'l str),
     /// A table.
     Table(OutputTable<'l>),
 }
@@ -65,7 +65,7 @@ impl Listing<'_> {
     /// The bytes of the displayed output.
     pub fn span(&self) -> Range<usize> {
         match &self.output {
-            DisplayedOutput::Block(block) => block.span.clone(),
+            DisplayedOutput::Block(block, _) => block.span.clone(),
             DisplayedOutput::Table(table) => table.span.clone(),
         }
     }
@@ -84,18 +84,24 @@ pub fn pair_listings(lesson: &Lesson) -> Vec<Listing<'_>> {
         let next = blocks.peek().copied();
         let end = next.map_or(text.len(), |next| next.span.start);
         let between = text.get(block.span.end..end).unwrap_or("");
-        let Some(output) = displayed_output(between, block.span.end, next) else { continue };
+        let output = displayed_output(between, block.span.end, next.map(|next| (next, raw(text, next))));
+        let Some(output) = output else { continue };
         let (number, file) = (all.len() + 1, file.as_deref());
         all.push(Listing { number, code: &block.body, file, info: block.info.clone(), output });
     }
     all
 }
 
+/// The bytes of the text of a fence.
+fn raw<'l>(text: &'l str, block: &Block) -> &'l str {
+    text.get(block.body.span()).unwrap_or("")
+}
+
 /// The output after a listing: a fence directly below it or below a line such as "Output:", or a table below such a line.
 fn displayed_output<'l>(
     between: &'l str,
     offset: usize,
-    next: Option<&'l Block>,
+    next: Option<(&'l Block, &'l str)>,
 ) -> Option<DisplayedOutput<'l>> {
     let bare = |line: &str| line.trim_matches([' ', '\t', '\r', '\n', '>', '*', '_']).to_lowercase();
     let mut at = 0;
@@ -115,7 +121,9 @@ fn displayed_output<'l>(
     }
     let rest = between.get(label.unwrap_or(at)..).unwrap_or("");
     if rest.lines().all(|line| bare(line).is_empty()) {
-        return next.filter(|next| is_output(next, label.is_some())).map(DisplayedOutput::Block);
+        return next
+            .filter(|(next, _)| is_output(next, label.is_some()))
+            .map(|(next, raw)| DisplayedOutput::Block(next, raw));
     }
     let (rows, span) = read_table(rest, offset + label?)?;
     Some(DisplayedOutput::Table(OutputTable { rows, span }))
