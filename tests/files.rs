@@ -333,8 +333,8 @@ fn with(texts: &[&str]) -> Vec<String> {
     sources().into_iter().filter(|(_, code)| has(code)).map(|(name, _)| name).collect()
 }
 
-/// Files are written, removed and renamed in one module, which checks their kind; the cache has a separate folder. One loader
-/// reads lessons; a page plays a lab from its text. Threads are created in one module, which sets their stack size.
+/// Files are written, removed and renamed in one module, which checks their kind; the cache and the runs of listings have
+/// folders of their own. One loader reads lessons; a page plays a lab from its text. Threads are created in one module, which sets their stack size.
 #[test]
 fn files_lessons_and_threads_have_one_place_each() {
     let writes = [
@@ -346,7 +346,15 @@ fn files_lessons_and_threads_have_one_place_each() {
         "remove_dir",
         "fs::copy(",
     ];
-    assert_eq!(with(&writes), ["cli/src/cache.rs", "cli/src/output.rs"]);
+    assert_eq!(
+        with(&writes),
+        [
+            "cli/src/cache.rs",
+            "cli/src/listings/environment.rs",
+            "cli/src/listings/folder.rs",
+            "cli/src/output.rs"
+        ]
+    );
     assert_eq!(
         with(&[" load_lesson(", "(load_lesson("]),
         ["labspec/src/lint/load.rs", "labspec/src/player/load.rs"]

@@ -5,7 +5,7 @@
 
 use super::NotRun;
 use super::folder::RunFolder;
-use labspec::interrupt;
+use labspec::{interrupt, threads};
 use std::io::Read;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
@@ -173,10 +173,10 @@ struct Collected {
 }
 
 /// Reads a pipe on a thread of its own, until it is closed or has more than the maximum.
-fn collect(mut pipe: impl Read + Send + 'static, max: usize) -> Arc<Collected> {
+fn collect(mut pipe: impl Read + Send + 'static, max: usize) -> std::io::Result<Arc<Collected>> {
     let collected = Arc::new(Collected::default());
     let shared = collected.clone();
-    std::thread::spawn(move || {
+    threads::checking().spawn(move || {
         let mut buffer = [0; 8192];
         while let Ok(n @ 1..) = pipe.read(&mut buffer) {
             let mut bytes = shared.bytes.lock().unwrap_or_else(PoisonError::into_inner);
@@ -188,8 +188,8 @@ fn collect(mut pipe: impl Read + Send + 'static, max: usize) -> Arc<Collected> {
             }
         }
         shared.is_complete.store(true, Ordering::Release);
-    });
-    collected
+    })?;
+    Ok(collected)
 }
 
 impl Collected {
@@ -204,8 +204,17 @@ pub(super) fn watch(mut command: Command, limit: Duration, max_output: usize) ->
     #[cfg(unix)]
     std::os::unix::process::CommandExt::process_group(&mut command, 0);
     let mut child = command.spawn()?;
-    let output = child.stdout.take().map(|pipe| collect(pipe, max_output));
-    let errors = child.stderr.take().map(|pipe| collect(pipe, max_output));
+    let ended = watch_child(&mut child, limit, max_output);
+    // Nothing survives, whatever happened.
+    if ended.is_err() {
+        end_group(&mut child);
+    }
+    ended
+}
+
+fn watch_child(child: &mut Child, limit: Duration, max_output: usize) -> std::io::Result<ProcessEnd> {
+    let output = child.stdout.take().map(|pipe| collect(pipe, max_output)).transpose()?;
+    let errors = child.stderr.take().map(|pipe| collect(pipe, max_output)).transpose()?;
     let pipes: Vec<&Arc<Collected>> = output.iter().chain(&errors).collect();
     let start = Instant::now();
     let reason = loop {
@@ -223,7 +232,7 @@ pub(super) fn watch(mut command: Command, limit: Duration, max_output: usize) ->
         }
         std::thread::sleep(INTERVAL);
     };
-    end_group(&mut child);
+    end_group(child);
     let end = Instant::now();
     while pipes.iter().any(|pipe| !pipe.is_complete.load(Ordering::Acquire)) && end.elapsed() < LAST_OUTPUT {
         std::thread::sleep(INTERVAL);
