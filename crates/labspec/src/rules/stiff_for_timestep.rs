@@ -1,7 +1,7 @@
-use labspec_monitors::stability;
 use crate::run;
 use labspec_core::{AccessSet, Model};
 use labspec_finding::{Example, Finding, Layer, Rule, Severity};
+use labspec_monitors::stability;
 use std::ops::Range;
 
 /// A servo, a spring or a contact is too stiff for the timestep.
