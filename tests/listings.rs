@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
-use crate::needs::needs;
+use crate::needs::{is_available, needs};
 use crate::program::{Done, program, run_in};
 use serde_json::Value;
 use std::path::Path;
@@ -11,9 +11,9 @@ use std::time::Instant;
 const CODE: &str = "import math\nt, v = math.sqrt(2 * 0.95 / 9.81), math.sqrt(2 * 9.81 * 0.95)\nprint(f\"analytic: t = {t:.4f} s, v = {v:.3f} m/s\")";
 const PRINTED: &str = "analytic: t = 0.4401 s, v = 4.317 m/s";
 
-/// Whether listings can be run without a network. Skips the test otherwise.
+/// Whether listings can be run. Skips the test otherwise.
 fn can_run() -> bool {
-    needs("unshare") && needs("python3")
+    needs("python3")
 }
 
 fn lesson(code: &str, output: &str) -> String {
@@ -23,11 +23,14 @@ fn lesson(code: &str, output: &str) -> String {
 fn folder(text: &str) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("a.md"), text).unwrap();
+    settings(folder.path(), "");
     folder
 }
 
+/// Writes settings. Where the network cannot be switched off, listings run with it.
 fn settings(folder: &Path, text: &str) {
-    std::fs::write(folder.join("labspec.toml"), format!("[listings]\n{text}\n")).unwrap();
+    let network = if is_available("unshare") { "" } else { "network = true" };
+    std::fs::write(folder.join("labspec.toml"), format!("[listings]\n{network}\n{text}\n")).unwrap();
 }
 
 /// The report of a check with listings.
@@ -71,7 +74,7 @@ fn a_right_output_passes() {
     assert_eq!((findings.len(), count(&report, "simulated")), (0, 1), "{report:#}");
     let folder = folder(&lesson(CODE, PRINTED));
     let Done { code, stdout, .. } = run_in(folder.path(), &["check", "a.md", "--listings"]);
-    assert!(code == 0 && stdout.contains("1 listing as shown"), "{code} {stdout}");
+    assert!(code == 0 && stdout.contains("1 listing as displayed"), "{code} {stdout}");
 }
 
 #[test]
@@ -80,7 +83,7 @@ fn nothing_runs_without_the_option() {
     let trace = top.path().join("ran");
     let code = format!("open({:?}, 'w').write('x')", trace.display().to_string());
     let folder = folder(&lesson(&code, "something else"));
-    settings(folder.path(), "network = true");
+    std::fs::write(folder.path().join("labspec.toml"), "[listings]\nnetwork = true\n").unwrap();
     for arguments in [
         &["check", "a.md"][..],
         &["check", "a.md", "--fix"],
@@ -151,7 +154,7 @@ fn limits_end_a_listing() {
 
 #[test]
 fn a_listing_has_no_network() {
-    if !can_run() {
+    if !needs("unshare") || !can_run() {
         return;
     }
     let server = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
@@ -164,7 +167,7 @@ fn a_listing_has_no_network() {
 
 #[test]
 fn surviving_processes_are_killed() {
-    if !can_run() {
+    if !needs("unshare") || !can_run() {
         return;
     }
     let top = tempfile::tempdir().unwrap();
@@ -200,7 +203,12 @@ fn shared_files_are_there_and_results_are_cached() {
     if !can_run() {
         return;
     }
-    let code = "import time\nfrom course import G\nprint(G, open('models/ball.xml').read(), time.time_ns())";
+    // How often it ran is in a file outside of its folder.
+    let outside = tempfile::tempdir().unwrap();
+    let trace = outside.path().join("runs");
+    let code = "from course import G\nprint(G, open('models/ball.xml').read())\nopen(TRACE, 'a').write('x')";
+    let code = &code.replace("TRACE", &format!("{:?}", trace.display().to_string()));
+    let runs = || std::fs::metadata(&trace).map_or(0, |meta| meta.len());
     let folder = folder(&lesson(code, "9.81"));
     let top = folder.path();
     std::fs::create_dir_all(top.join("lib/models")).unwrap();
@@ -216,15 +224,54 @@ fn shared_files_are_there_and_results_are_cached() {
     };
     let first = run(&[]);
     assert!(first.contains("<ball>"), "{first}");
-    assert_eq!(run(&[]), first, "the result is in the cache");
-    let again = run(&["--no-cache"]);
-    assert_ne!(again, first);
-    assert_eq!(run(&[]), first);
+    assert_eq!(runs(), 2, "an output that is not displayed is confirmed by a second run");
+    assert_eq!((run(&[]), runs()), (first.clone(), 2), "the result is in the cache");
+    assert_eq!((run(&["--no-cache"]), runs()), (first, 4));
     std::fs::write(top.join("lib/models/ball.xml"), "<other>").unwrap();
     assert!(run(&[]).contains("<other>"));
     std::fs::remove_file(top.join("lib/course.py")).unwrap();
     let done = run_in(top, &["check", "a.md", "--listings"]);
     assert!(done.code == 1 && done.stdout.contains("correct `files`"), "{}", done.stdout);
+}
+
+/// An output that differs in each run is no correction of the lesson, and is never the displayed one.
+#[test]
+fn an_output_that_varies_is_not_a_fix() {
+    if !can_run() {
+        return;
+    }
+    for code in ["import time\nprint(1)\nprint(time.time_ns())", "print(1)\nimport os\nprint(os.getcwd())"] {
+        let text = lesson(code, "1\n0.5");
+        let folder = folder(&text);
+        let report = report(folder.path());
+        assert!(message(&report).contains("prints another output in each run"), "{report:#}");
+        assert_eq!((found(&report, &text).len(), count(&report, "false")), (1, 1), "{report:#}");
+        let fixed = run_in(folder.path(), &["check", "a.md", "--listings", "--fix"]);
+        assert_eq!(fixed.code, 1, "{}", fixed.stdout);
+        assert_eq!(std::fs::read_to_string(folder.path().join("a.md")).unwrap(), text);
+    }
+}
+
+/// What a listing prints may contain control characters and may be long.
+#[test]
+fn hostile_outputs_are_quoted_in_part_and_escaped() {
+    if !can_run() {
+        return;
+    }
+    let printed = "print('\\x1b[2J' + 'x' * 100_000)";
+    let raised = "raise ValueError('\\x1b[2J' + 'x' * 100_000)";
+    let varies = "import os\nprint('\\x1b[2J' + os.getcwd() * 1000)";
+    for code in [printed, raised, varies] {
+        for format in ["human", "json", "github", "sarif", "junit"] {
+            let folder = folder(&lesson(code, "1"));
+            let done = run_in(folder.path(), &["check", "a.md", "--listings", "--format", format]);
+            let all = format!("{}{}", done.stdout, done.stderr);
+            assert!(done.code == 1 && !all.contains('\x1b'), "{code} {format}: {}", done.stderr);
+            // The fix contains the printed output.
+            let most = if code == printed && format != "human" { 600_000 } else { 8_000 };
+            assert!(all.len() < most, "{code} {format}: {} bytes", all.len());
+        }
+    }
 }
 
 #[test]

@@ -36,7 +36,7 @@ pub(crate) fn requires_all() -> bool {
     std::env::var_os("LABSPEC_REQUIRE").is_some_and(|value| value == "all")
 }
 
-fn is_available(what: &str) -> bool {
+pub(crate) fn is_available(what: &str) -> bool {
     match what {
         "node" | "python3" => Command::new(what).arg("--version").output().is_ok_and(|o| o.status.success()),
         "unshare" => {

@@ -210,8 +210,7 @@ impl Baseline {
 
 /// Whether an entry is a claim that could not be checked.
 fn is_unchecked_claim(entry: &Entry) -> bool {
-    let claims = [Subject::Answer, Subject::Option, Subject::Quote, Subject::ClosedForm, Subject::Run];
-    entry.state == State::Unchecked && claims.contains(&entry.subject)
+    entry.state == State::Unchecked && Subject::CLAIMS.contains(&entry.subject)
 }
 
 /// The line that contains a position, without surrounding space.

@@ -91,16 +91,8 @@ fn keep_suppressed_failures(ledger: &mut Ledger, results: &CourseResults) {
 fn is_about(f: &Finding, e: &Entry) -> bool {
     let whole = e.span.is_empty();
     let inside = f.span.start <= e.span.end && e.span.start <= f.span.end;
-    let claims = [
-        Subject::Answer,
-        Subject::Option,
-        Subject::Quote,
-        Subject::ClosedForm,
-        Subject::Run,
-        Subject::Listing,
-    ];
     // A false claim has its own findings. A claim that was not evaluated fails because of the findings of its container.
-    let is_claim = claims.contains(&e.subject);
+    let is_claim = Subject::CLAIMS.contains(&e.subject);
     match &f.claim {
         Some(claim) if is_claim => check::is_about(claim, e),
         Some(_) => whole,

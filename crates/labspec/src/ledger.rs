@@ -38,6 +38,16 @@ pub enum Subject {
 }
 
 impl Subject {
+    /// The subjects that a lesson claims: each is true or false on its own, and has its own findings.
+    pub const CLAIMS: [Subject; 6] = [
+        Subject::Answer,
+        Subject::Option,
+        Subject::Quote,
+        Subject::ClosedForm,
+        Subject::Run,
+        Subject::Listing,
+    ];
+
     /// Every subject, in the order of summaries.
     pub const ALL: [Subject; 11] = [
         Subject::File,
@@ -406,7 +416,7 @@ fn summary_counts(subject: Subject, c: &Count) -> Vec<[(usize, &'static str); 2]
             [(c.unchecked, "could not be checked"), (c.skipped, "left out")],
         ],
         Subject::Listing => vec![
-            [(c.simulated, "as shown"), (c.wrong, "not as shown")],
+            [(c.simulated, "as displayed"), (c.wrong, "not as displayed")],
             [(c.unchecked, "could not be checked"), (c.skipped, "left out")],
         ],
         Subject::Answer | Subject::Quote | Subject::ClosedForm => vec![

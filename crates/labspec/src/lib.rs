@@ -45,6 +45,12 @@ pub mod stress;
 pub mod threads;
 pub mod verify;
 
+/// Whether tests take all cases: nothing may be left out (`tests/population.rs`).
+#[cfg(test)]
+fn takes_all() -> bool {
+    std::env::var_os("LABSPEC_REQUIRE").is_some_and(|value| value == "all")
+}
+
 pub use checker::{Checker, Report};
 pub use error::Error;
 pub use finding::Finding;

@@ -15,7 +15,7 @@ use super::cache::Cache;
 use super::digest;
 use folder::{RunFolder, SharedFiles, read_shared};
 use labspec::finding::Finding;
-use labspec::listings::{Listing, ListingResult, ListingRun, check_listing, pair_listings};
+use labspec::listings::{Listing, ListingResult, ListingRun, check_listing, is_as_displayed, pair_listings};
 use labspec::spec::Lesson;
 use process::{Ended, Limits, run_limited};
 use python::Interpreter;
@@ -94,7 +94,7 @@ impl<'c> ListingRunner<'c> {
         let run = match self.cache.load_text(&slot).and_then(|text| serde_json::from_str(&text).ok()) {
             Some(run) => run,
             None => {
-                let run = execute(listing, path, settings, &setup)?;
+                let run = confirmed(listing, || execute(listing, path, settings, &setup))?;
                 // A limit depends on the load of the machine.
                 let is_final = matches!(run, ListingRun::Finished(_) | ListingRun::Failed(..));
                 if let Some(text) =
@@ -151,6 +151,23 @@ fn key(listing: &Listing<'_>, path: &str, settings: &ListingSettings, setup: &Se
     let parts =
         ["listing 1", &listing.code.value, path, &limits, &setup.interpreter.identity, &setup.shared.digest];
     digest::hex_of(&parts.map(str::as_bytes))
+}
+
+/// The run of a listing. If the lesson displays another output, the listing runs once more: an output that varies is no
+/// correction of the lesson.
+fn confirmed(
+    listing: &Listing<'_>,
+    execute: impl Fn() -> Result<ListingRun, NotRun>,
+) -> Result<ListingRun, NotRun> {
+    let first = execute()?;
+    let ListingRun::Finished(printed) = &first else { return Ok(first) };
+    if is_as_displayed(listing, printed) {
+        return Ok(first);
+    }
+    Ok(match execute()? {
+        ListingRun::Finished(other) if other != *printed => ListingRun::Varies(printed.clone(), other),
+        second => second,
+    })
 }
 
 /// Runs a listing in a folder of its own.

@@ -76,10 +76,10 @@ impl Differences {
 }
 
 /// The maximum length of a quoted text, in characters.
-const MAX_QUOTED: usize = 80;
+const MAX_QUOTED: usize = 120;
 
 /// The text, or its start.
-fn clip(text: &str) -> String {
+pub(super) fn clip(text: &str) -> String {
     match text.char_indices().nth(MAX_QUOTED) {
         Some((end, _)) => format!("{}…", text.get(..end).unwrap_or("")),
         None => text.to_string(),

@@ -9,7 +9,7 @@ mod pairing;
 mod table;
 mod traceback;
 
-pub use outcome::{ListingResult, ListingRun, check_listing};
+pub use outcome::{ListingResult, ListingRun, check_listing, is_as_displayed};
 pub use pairing::{DisplayedOutput, Listing, pair_listings};
 pub use traceback::last_line;
 

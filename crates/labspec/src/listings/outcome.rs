@@ -1,6 +1,6 @@
 //! What the run of a listing means for its lesson: findings, and the state of the claim.
 
-use super::compare::{Difference, DifferenceKind, Differences, compare_lines, trimmed_lines};
+use super::compare::{Difference, DifferenceKind, Differences, clip, compare_lines, trimmed_lines};
 use super::pairing::{DisplayedOutput, Listing, displayed_lines};
 use super::table::printed_rows;
 use super::traceback::{last_line, line_in_file};
@@ -17,6 +17,8 @@ use std::ops::Range;
 pub enum ListingRun {
     /// It ended without an error, and printed this.
     Finished(String),
+    /// It ended without an error in two runs, and printed two different outputs.
+    Varies(String, String),
     /// It ended with this exit code, and wrote this to the standard error.
     Failed(i32, String),
     /// A limit ended it: how, and what to do.
@@ -24,6 +26,9 @@ pub enum ListingRun {
     /// It could not be run: the reason, and what to do.
     NotRun(String, String),
 }
+
+/// The word for a listing that prints another output than the lesson displays.
+const NOT_AS_DISPLAYED: &str = "not as displayed";
 
 /// What became of the output of a listing.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -40,6 +45,11 @@ pub struct ListingResult {
     pub word: &'static str,
     /// The reason why it is not true, or empty.
     pub remark: String,
+}
+
+/// Whether the lesson displays this output below the listing.
+pub fn is_as_displayed(listing: &Listing<'_>, printed: &str) -> bool {
+    compare_output(listing, printed, &mut Vec::new()) == 0
 }
 
 /// Compares the run of a listing with the displayed output. Adds the findings.
@@ -60,9 +70,13 @@ pub fn check_listing(listing: &Listing<'_>, run: &ListingRun, findings: &mut Vec
             findings.push(failure_finding(listing, errors, &why));
             (State::False, "fails", why)
         }
+        ListingRun::Varies(first, second) => {
+            findings.push(variation(listing, first, second));
+            (State::False, NOT_AS_DISPLAYED, "it prints another output in each run".to_string())
+        }
         ListingRun::Finished(printed) => match compare_output(listing, printed, findings) {
-            0 => (State::True(Evidence::Simulated), "as shown", String::new()),
-            n => (State::False, "not as shown", counted(n, "difference")),
+            0 => (State::True(Evidence::Simulated), "as displayed", String::new()),
+            n => (State::False, NOT_AS_DISPLAYED, counted(n, "difference")),
         },
     };
     for finding in findings.iter_mut().skip(before) {
@@ -73,8 +87,22 @@ pub fn check_listing(listing: &Listing<'_>, run: &ListingRun, findings: &mut Vec
     ListingResult { name: listing.name(), file, span: listing.span(), state, word, remark }
 }
 
+/// The finding about two runs with different outputs.
+fn variation(listing: &Listing<'_>, first: &str, second: &str) -> Finding {
+    let [first_lines, second_lines] = [first, second].map(trimmed_lines);
+    let longest = first_lines.len().max(second_lines.len());
+    let line = |lines: &[&str], i: usize| clip(lines.get(i).copied().unwrap_or(""));
+    let differs = |i: &usize| first_lines.get(*i) != second_lines.get(*i);
+    let i = (0..longest).find(differs).unwrap_or(0);
+    let [one, other] = [line(&first_lines, i), line(&second_lines, i)];
+    let message = format!("the listing prints another output in each run: first `{one}`, then `{other}`");
+    Finding::new(LISTING_OUTPUT, listing.span(), message)
+        .why("no output that the lesson displays is that of the next run")
+        .help("give random numbers a seed, and do not print times, addresses or temporary paths")
+}
+
 fn path_finding(listing: &Listing<'_>) -> Finding {
-    let path = listing.file.unwrap_or("");
+    let path = clip(listing.file.unwrap_or(""));
     let message = format!("`file={path}` leaves the folder in which the listing runs");
     Finding::plain(LISTING_FAILS, listing.info.clone(), message)
         .why("the listing is not run")
@@ -82,13 +110,14 @@ fn path_finding(listing: &Listing<'_>) -> Finding {
 }
 
 fn failure(listing: &Listing<'_>, span: Range<usize>, why: &str, help: &str) -> Finding {
-    let name = listing.file.map_or(String::new(), |file| format!(" {file}"));
+    let name = listing.file.map_or(String::new(), |file| format!(" {}", clip(file)));
     Finding::new(LISTING_FAILS, span, format!("the listing{name} fails: {why}")).help(help)
 }
 
 /// The exception, or the exit code.
 fn failure_reason(code: i32, errors: &str) -> String {
-    match last_line(errors) {
+    let line = clip(last_line(errors));
+    match line.as_str() {
         "" => format!("exit code {code}"),
         line if errors.contains("Traceback (most recent call last)") || line.contains("Error: ") => {
             line.into()
@@ -156,7 +185,11 @@ fn difference_finding(difference: &Difference) -> Finding {
     let (message, help) = match kind {
         DifferenceKind::Changed => {
             let message = format!("the lesson shows `{displayed}`, the listing prints `{printed}`");
-            (message, format!("write `{printed}`"))
+            let help = match printed.contains(char::is_control) {
+                true => "print without control characters, such as colours".to_string(),
+                false => format!("write `{printed}`"),
+            };
+            (message, help)
         }
         DifferenceKind::MissingWords => {
             (format!("the listing prints `{printed}` here"), format!("add `{printed}`"))

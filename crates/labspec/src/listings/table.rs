@@ -8,7 +8,7 @@ use std::ops::Range;
 const MARKUP: [char; 3] = ['`', '*', '$'];
 
 /// The body rows of a table at the start of a text, with their bytes in it, and the bytes of the whole table. `None` without
-/// a head and a line of dashes.
+/// a head, a line of dashes and a row.
 pub(super) fn read_table(text: &str, offset: usize) -> Option<(Vec<DisplayedLine<'_>>, Range<usize>)> {
     let mut lines = Vec::new();
     let mut at = 0;
@@ -24,6 +24,7 @@ pub(super) fn read_table(text: &str, offset: usize) -> Option<(Vec<DisplayedLine
         }
         at += line.len();
     }
+    // A table without rows displays no output.
     let [head, dashes, rows @ ..] = lines.as_slice() else { return None };
     let is_dashes = |cell: Range<usize>| {
         let cell = dashes.0.get(cell).unwrap_or("").trim().trim_matches(':');
@@ -32,7 +33,7 @@ pub(super) fn read_table(text: &str, offset: usize) -> Option<(Vec<DisplayedLine
     if !cells(dashes.0).into_iter().all(is_dashes) {
         return None;
     }
-    let last = rows.last().unwrap_or(dashes);
+    let last = rows.last()?;
     let span = offset + head.1..offset + last.1 + last.0.len();
     Some((rows.iter().map(|(row, start)| read_row(row, offset + start)).collect(), span))
 }

@@ -230,6 +230,7 @@ fn listings_are_paired_with_what_is_below_them() {
         "",
         "| a |\n|---|\n| 1 |\n",
         "Output:\n\n| a |\n| 1 |\n",
+        "Output:\n\n| a |\n|---|\n",
     ] {
         assert_eq!(pairs(&format!("{code}{other}")), 0, "{other}");
     }
