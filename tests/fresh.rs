@@ -3,6 +3,7 @@
 
 #![allow(clippy::unwrap_used)]
 
+use crate::population::sample;
 use crate::support::compile;
 use labspec::monitors::watch;
 use labspec_core::math::rows;
@@ -14,6 +15,8 @@ const SEED: u64 = 20_261_123;
 const SCENES: usize = 240;
 const STEPS: usize = 300;
 const SHORTER: usize = 100;
+/// One of so many scenes is in a sample. It has no common divisor with the number of kinds, so that all kinds occur.
+pub(crate) const SAMPLE_STEP: usize = 7;
 /// The thickness up to which a box counts as a wall, m; its middle is at 1 m.
 const WALL_THICKNESS: f64 = 0.03;
 
@@ -258,7 +261,7 @@ pub(crate) fn section() -> (String, Rates, Vec<String>) {
     let mut kinds: Vec<(&str, Rates)> = Vec::new();
     let mut list = Vec::new();
     let mut all = Rates::default();
-    for scene in scenes(SEED) {
+    for scene in sample(scenes(SEED), SAMPLE_STEP) {
         let mut m = compile(&scene.xml);
         let coarse = run(&m, 1, true);
         let opt = m.edit().opt;

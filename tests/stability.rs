@@ -7,6 +7,8 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
+use crate::fresh::SAMPLE_STEP;
+use crate::population::{minimum, takes_all};
 use crate::support::{compile, read_json, workspace};
 use labspec::monitors::growth::Source;
 use labspec::monitors::watch::{self, Observations};
@@ -16,6 +18,8 @@ use std::fmt::Write;
 
 /// The number of coordinates that are compared at the end.
 const KEPT: usize = 7;
+/// The heading of the section that `fresh.rs` writes.
+const RANDOM: &str = "\n## A random test set";
 /// The number of steps of a long run in a test.
 const SHORTENED: u64 = 2_000;
 
@@ -451,7 +455,8 @@ fn stiff_and_extreme_scenes() {
         println!("{line}");
     }
     // Random scenes: most faults are reported, and almost no run without a fault is.
-    assert!(rates.wrong >= 30 && rates.well >= 60, "{} and {} scenes", rates.wrong, rates.well);
+    let enough = rates.wrong >= minimum(30, SAMPLE_STEP) && rates.well >= minimum(60, SAMPLE_STEP);
+    assert!(enough, "{} and {} scenes", rates.wrong, rates.well);
     assert!(4 * rates.reported >= 3 * rates.wrong, "{} of {} are told", rates.reported, rates.wrong);
     assert!(50 * rates.alarms <= rates.well, "{} of {} are called wrong", rates.alarms, rates.well);
     assert!(sum.well[1] > 1000 && sum.silent[1] > 60, "{} and {} runs", sum.well[1], sum.silent[1]);
@@ -463,13 +468,16 @@ fn stiff_and_extreme_scenes() {
     );
     assert!(wrong.is_empty(), "scenes that end well with MuJoCo and not here:\n{}", wrong.join("\n"));
     let stored = std::fs::read_to_string(&path).unwrap_or_default();
+    // The section about random scenes, the last one, counts all of them.
+    let [stored, text] = [&stored, &text]
+        .map(|page| if takes_all() { page } else { page.split(RANDOM).next().unwrap_or(page) });
     assert!(
         differ.len() <= searches.len() / 20,
         "longest stable timesteps that are not MuJoCo's:\n{}",
         differ.join("\n")
     );
     assert!(
-        subjects(&stored) == subjects(&text),
+        subjects(stored) == subjects(text),
         "docs/measured/stability.md is stale: LABSPEC_BLESS=1 cargo test -p labspec-cli --test all stiff"
     );
 }
