@@ -40,7 +40,7 @@ pub(crate) struct Kind {
 const PLACES: usize = 2;
 const SEED: u64 = 16;
 /// One of this many mutants is in a sample.
-const STEP: usize = 8;
+const STEP: usize = 16;
 /// The maximum number of survivors of each kind that the table lists.
 const NAMED: usize = 50;
 

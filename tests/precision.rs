@@ -160,7 +160,7 @@ fn advice_holds(name: &str, lab: &LoadedLab, report: &PrecisionResults, setting:
 }
 
 /// One of this many labs is in a sample.
-const STEP: usize = 4;
+const STEP: usize = 8;
 
 #[test]
 fn advice_holds_in_an_independent_run() {

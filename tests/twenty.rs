@@ -23,8 +23,8 @@ use std::path::Path;
 const REPORTED: f64 = 0.99;
 const MAX_FALSE_ALARMS: f64 = 0.003;
 /// One of this many settings, and one of this many labs, is in a sample.
-const SETTINGS_STEP: usize = 10;
-const LABS_STEP: usize = 5;
+const SETTINGS_STEP: usize = 20;
+const LABS_STEP: usize = 10;
 
 /// A lab with its model and its programs.
 struct PreparedLab {

@@ -20,7 +20,7 @@ const CLOSE: f64 = 0.1;
 /// the solver on both sides.
 const CHATTERS: f64 = 0.5;
 /// One of this many labs is in a sample.
-const STEP: usize = 4;
+const STEP: usize = 8;
 
 /// Our report of a lab.
 fn labspec_report(lab: &str) -> Json {
