@@ -458,7 +458,8 @@ fn stiff_and_extreme_scenes() {
     let enough = rates.wrong >= minimum(30, SAMPLE_STEP) && rates.well >= minimum(60, SAMPLE_STEP);
     assert!(enough, "{} and {} scenes", rates.wrong, rates.well);
     assert!(4 * rates.reported >= 3 * rates.wrong, "{} of {} are told", rates.reported, rates.wrong);
-    assert!(50 * rates.alarms <= rates.well, "{} of {} are called wrong", rates.alarms, rates.well);
+    // One of fifty; a sample has fewer, of which one may be.
+    assert!(50 * rates.alarms <= rates.well.max(50), "{} of {} are called wrong", rates.alarms, rates.well);
     assert!(sum.well[1] > 1000 && sum.silent[1] > 60, "{} and {} runs", sum.well[1], sum.silent[1]);
     assert!(sum.called == 0, "runs that go well, said to go wrong:\n{}", classes.alarms.join("\n"));
     assert!(
