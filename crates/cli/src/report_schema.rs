@@ -4,6 +4,7 @@
 use super::machine::CheckReport;
 use super::plan::PlanOutput;
 use super::precision::PrecisionReport;
+use super::reproduction::ReproductionRecord;
 use super::scaffold::ScaffoldReport;
 use super::schema_shape::finish;
 use super::snapshot::SnapshotReport;
@@ -37,7 +38,10 @@ pub(super) fn schemas() -> Vec<(String, String)> {
         ("trace", report_schema::<TraceReport<'_>>("labspec trace --format json", &["trace"])),
         ("verify", verify_schema()),
     ];
-    all.into_iter().map(|(name, schema)| (format!("report-{name}.json"), format!("{schema:#}\n"))).collect()
+    let record = report_schema::<ReproductionRecord>("labspec check --record FILE", &["reproduction"]);
+    let of_reports = all.into_iter().map(|(name, schema)| (format!("report-{name}.json"), schema));
+    let files = of_reports.chain([("reproduction.json".to_string(), record)]);
+    files.map(|(name, schema)| (name, format!("{schema:#}\n"))).collect()
 }
 
 /// The schema of a report with these names. Its description is the documentation of the type of its entries.

@@ -6,10 +6,12 @@ use super::common::Failure;
 use super::course::CourseResults;
 use super::output_kind::OutputKind;
 use super::report_json::{MeasureRow, NonFinite, StoredReport, finite, nonfinite, read_report, write_report};
+use super::schema_words::{AnyNumber, WordOf};
 use labspec::check::{Basis, Checked, Claim, ClaimBasis, LabBasis, RunSettings};
-use labspec::ledger::{Entry, Ledger};
+use labspec::ledger::{Entry, Ledger, State};
 use labspec::report::key;
 use labspec::verify::Quote;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -26,85 +28,131 @@ const STORED: StoredReport = StoredReport {
     output: OutputKind::Record,
 };
 
-/// The results of a check, and their basis.
-#[derive(Debug, Serialize, Deserialize)]
+/// Every verdict of a check with what is needed to come to it again: versions, the settings of every run, digests (SHA-256) of
+/// models and texts.
+#[derive(Debug, Serialize, Deserialize, JsonSchema)]
 pub(super) struct ReproductionRecord {
+    /// The version of labspec.
     pub(super) labspec: String,
+    /// The version of the lesson format.
     pub(super) format: String,
+    /// The simulator whose semantics the engine implements, with its version.
     pub(super) engine: String,
+    /// All lessons, in the order of their names.
     pub(super) lessons: Vec<LessonRecord>,
 }
 
-#[derive(Debug, Serialize, Deserialize)]
+/// A lesson.
+#[derive(Debug, Serialize, Deserialize, JsonSchema)]
 pub(super) struct LessonRecord {
+    /// Its path from the folder of this file, with `/`.
     pub(super) file: String,
+    /// Its labs, in order.
     pub(super) labs: Vec<LabRecord>,
+    /// Questions and labs with a `verify` object, in order.
     pub(super) claims: Vec<ClaimRecord>,
+    /// The verdict of every claim: the ledger without places, sorted by owner, subject and what is claimed.
     pub(super) verdicts: Vec<VerdictRecord>,
 }
 
-/// A lab: digests of its text and of its model, and its settings, which are `None` if it cannot run.
-#[derive(Debug, Serialize, Deserialize)]
+/// A lab as it is in the lesson.
+#[derive(Debug, Serialize, Deserialize, JsonSchema)]
 pub(super) struct LabRecord {
+    /// Its address: `#1`.
     pub(super) lab: String,
+    /// The digest of its text.
     pub(super) block: String,
+    /// The digest of its compiled model; null if it cannot run.
+    #[schemars(required)]
     pub(super) model: Option<String>,
+    /// The settings at its start; null if it cannot run.
+    #[schemars(required)]
     pub(super) settings: Option<SettingsRecord>,
 }
 
 /// Numbers by name; `None` for a number that JSON cannot represent.
 type Numbers = BTreeMap<String, Vec<Option<f64>>>;
 
-/// The settings of a run at its start; the timestep is in s.
-#[derive(Debug, Serialize, Deserialize)]
+/// The settings of a run at its start.
+#[derive(Debug, Serialize, Deserialize, JsonSchema)]
 pub(super) struct SettingsRecord {
+    /// The digest of the model after the changes by the controls and the setup of the run.
     pub(super) model: String,
+    /// The length of a step in s.
+    #[schemars(with = "AnyNumber")]
     pub(super) timestep: Option<f64>,
+    /// The integrator, as MJCF names it.
     pub(super) integrator: String,
+    /// The solver, as MJCF names it.
     pub(super) solver: String,
+    /// The friction cone, as MJCF names it.
     pub(super) cone: String,
+    /// The maximum number of iterations of the solver.
     pub(super) iterations: i32,
+    /// The tolerance at which the solver stops.
+    #[schemars(with = "AnyNumber")]
     pub(super) tolerance: Option<f64>,
-    /// Options that differ from MuJoCo's defaults.
+    /// All other options that differ from MuJoCo's defaults, by name.
     pub(super) options: Numbers,
-    /// Contact parameters that differ from the defaults, by geom.
+    /// By geom: the parameters of its contacts that differ from MuJoCo's defaults.
     pub(super) contacts: BTreeMap<String, Numbers>,
     #[serde(default, skip_serializing_if = "NonFinite::is_empty")]
     nonfinite: NonFinite,
 }
 
-/// A question, or a lab with claims, with digests as in [`LabRecord`].
-#[derive(Debug, Serialize, Deserialize)]
+/// A question, or a lab with a `verify` object.
+#[derive(Debug, Serialize, Deserialize, JsonSchema)]
 pub(super) struct ClaimRecord {
+    /// What makes the claim: `quiz fall, question 2`.
     pub(super) name: String,
+    /// The digest of its text.
     pub(super) block: String,
+    /// The digest of the compiled model of the lab that it is about; null if that cannot run.
+    #[schemars(required)]
     pub(super) model: Option<String>,
+    /// Its runs, in order.
     pub(super) runs: Vec<RunRecord>,
+    /// Every measure by name, as in the report `check`.
     pub(super) measures: BTreeMap<String, MeasureRow>,
+    /// Every quoted number, in order.
     pub(super) quotes: Vec<QuoteRecord>,
 }
 
-#[derive(Debug, Serialize, Deserialize)]
+/// A run.
+#[derive(Debug, Serialize, Deserialize, JsonSchema)]
 pub(super) struct RunRecord {
+    /// Its name.
     pub(super) name: String,
+    /// Its settings at the start; null if it cannot be made.
+    #[schemars(required)]
     pub(super) settings: Option<SettingsRecord>,
 }
 
-/// The quoted text, and the computed value in its unit.
-#[derive(Debug, Serialize, Deserialize)]
+/// A quoted number.
+#[derive(Debug, Serialize, Deserialize, JsonSchema)]
 pub(super) struct QuoteRecord {
+    /// The text that quotes it.
     pub(super) text: String,
+    /// The computed value in the unit of the text.
+    #[schemars(with = "AnyNumber")]
     pub(super) computed: Option<f64>,
     #[serde(default, skip_serializing_if = "NonFinite::is_empty")]
     pub(super) nonfinite: NonFinite,
 }
 
-#[derive(Debug, Serialize, Deserialize)]
+/// The verdict of a claim.
+#[derive(Debug, Serialize, Deserialize, JsonSchema)]
 pub(super) struct VerdictRecord {
+    /// What it is about, as in the ledger.
     pub(super) subject: String,
+    /// Who makes the claim.
     pub(super) owner: String,
+    /// What is claimed, if the owner makes several claims; else empty.
     pub(super) what: String,
+    /// The verdict.
+    #[schemars(with = "WordOf<State>")]
     state: String,
+    /// The verdict as people read it.
     pub(super) word: String,
 }
 
