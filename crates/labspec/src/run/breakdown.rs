@@ -3,7 +3,7 @@
 use super::integrator::sets_integrator;
 use super::session::Session;
 use crate::rules::Rule;
-use labspec_core::{AccessSet, Model};
+use labspec_core::AccessSet;
 use labspec_finding::{two_digits, without_zeros};
 use labspec_monitors::stability::{self, StiffPart, UnstablePart, how_stiff, owner};
 
@@ -112,17 +112,5 @@ pub fn attribute_to_soften(s: &UnstablePart, access: &AccessSet) -> String {
     match sets_integrator(access) {
         true => format!("softer {attribute}"),
         false => format!("softer {attribute}, or `integrator=\"discrete\"`"),
-    }
-}
-
-pub(super) fn joint_of(model: &Model, index: usize, adr: &[i32], width: fn(i32) -> usize) -> String {
-    let found = (0..model.njnt).find(|&j| {
-        let first = adr.get(j).map_or(0, |&a| a as usize);
-        (first..first + width(model.jnt_type.get(j).copied().unwrap_or(3))).contains(&index)
-    });
-    match found.and_then(|j| model.names.joint.get(j).map(|n| (j, n))) {
-        Some((_, name)) if !name.is_empty() => format!("joint \"{name}\""),
-        Some((j, _)) => format!("joint {j}"),
-        None => format!("degree of freedom {index}"),
     }
 }

@@ -1,10 +1,11 @@
 //! The breakdowns of a session: warnings of the engine and silent faults, the worst first.
 
-use super::breakdown::{Breakdown, BreakdownAdvice, joint_of, time};
+use super::breakdown::{Breakdown, BreakdownAdvice, time};
 use super::session::Session;
 use super::silent;
 use crate::rules;
-use labspec_core::{Warning, WarningStat, joint};
+use labspec_core::{Warning, WarningStat};
+use labspec_monitors::stress::{joint_of_dof, joint_of_place};
 
 const RESET: &str = "MuJoCo then resets the data and continues from time 0: a student sees the scene jump back without an explanation";
 
@@ -47,25 +48,25 @@ pub fn breakdowns_of(session: &Session<'_>) -> Vec<Breakdown> {
 /// Describes a warning of the engine.
 fn explain_warning(session: &Session<'_>, warning: Warning, stat: &WarningStat) -> Breakdown {
     let model = &session.world.model;
-    let joint = |adr: &[i32], width| joint_of(model, stat.lastinfo, adr, width);
+    let joint = || joint_of_dof(model, stat.lastinfo);
     let moment = format!("at t = {} s", time(stat.first_time));
     let no_number = |what: String| format!("{what} is not a number or exceeds 1e10 {moment}");
     let (rule, what, why, advice) = match warning {
         Warning::BadQpos => (
             rules::SIMULATION_DIVERGES,
-            no_number(format!("the position of {}", joint(&model.jnt_qposadr, joint::nq))),
+            no_number(format!("the position of {}", joint_of_place(model, stat.lastinfo))),
             RESET,
             BreakdownAdvice::by_stiffness(session),
         ),
         Warning::BadQvel => (
             rules::SIMULATION_DIVERGES,
-            no_number(format!("the velocity of {}", joint(&model.jnt_dofadr, joint::nv))),
+            no_number(format!("the velocity of {}", joint())),
             RESET,
             BreakdownAdvice::by_stiffness(session),
         ),
         Warning::BadQacc => (
             rules::SIMULATION_DIVERGES,
-            no_number(format!("the acceleration of {}", joint(&model.jnt_dofadr, joint::nv))),
+            no_number(format!("the acceleration of {}", joint())),
             RESET,
             BreakdownAdvice::by_stiffness(session),
         ),
@@ -77,10 +78,7 @@ fn explain_warning(session: &Session<'_>, warning: Warning, stat: &WarningStat) 
         ),
         Warning::Inertia => (
             rules::ENGINE_WARNING,
-            format!(
-                "the parts that {} moves have no positive inertia {moment}",
-                joint(&model.jnt_dofadr, joint::nv)
-            ),
+            format!("the parts that {} moves have no positive inertia {moment}", joint()),
             "a push then gives no meaningful acceleration: things do not move, move backwards or vanish",
             BreakdownAdvice::only(
                 "give every moving body a mass and an inertia above 0: check the model, and what writes `body_mass`, `body_inertia` or `dof_armature`",

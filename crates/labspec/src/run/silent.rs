@@ -1,12 +1,13 @@
 //! Silent faults of a run, described for teachers: what happens, the consequence, and a remedy.
 
-use super::breakdown::{Breakdown, BreakdownAdvice, joint_of, time};
+use super::breakdown::{Breakdown, BreakdownAdvice, time};
 use super::session::Session;
 use crate::rules;
 use labspec_core::{Model, joint, solver};
 use labspec_finding::two_digits;
 use labspec_monitors::growth::{Growth, Source};
 use labspec_monitors::limits::ExceededLimit;
+use labspec_monitors::stress::joint_of_dof;
 use labspec_monitors::sunk::SunkContact;
 use labspec_monitors::through::Through;
 use labspec_monitors::unsolved::Unsolved;
@@ -36,7 +37,7 @@ pub(super) fn growth(session: &Session<'_>, g: Growth) -> Breakdown {
         time(g.time),
         two_digits(g.gain),
         two_digits(g.available_energy),
-        joint_of(model, g.dof, &model.jnt_dofadr, joint::nv)
+        joint_of_dof(model, g.dof)
     );
     match g.source {
         Source::Steps => {
@@ -49,7 +50,7 @@ pub(super) fn growth(session: &Session<'_>, g: Growth) -> Breakdown {
             advice.breakdown(rules::ENERGY_GROWS, what, ENERGY_FROM_STEPS)
         }
         Source::Damper(dof) => {
-            let owner = joint_of(model, dof, &model.jnt_dofadr, joint::nv);
+            let owner = joint_of_dof(model, dof);
             let damping = model.dof_damping.get(dof).copied().unwrap_or(0.0);
             let what = format!(
                 "the damping of {owner} is {}, so it feeds energy in without end: it has added {} J by t = {} s, while the start had {} J",
@@ -141,7 +142,7 @@ fn unsolved(model: &Model, u: Unsolved) -> Breakdown {
         "the solver stops after {iterations}: from t = {} s on, {} % of the force of contacts, limits and constraints is missing, most of it at {}",
         time(u.time),
         two_digits(100.0 * u.part),
-        joint_of(model, u.dof, &model.jnt_dofadr, joint::nv)
+        joint_of_dof(model, u.dof)
     );
     let help = if model.opt.solver == solver::NEWTON {
         "write `iterations=\"100\"`, the default, or use less extreme mass ratios"
