@@ -189,14 +189,14 @@ fn describe_own_error(report: &PrecisionResults, own_row: usize) -> String {
     let [most, least] = e.seen;
     let samples = || format!("at {} of {} samples", e.wrong, e.samples);
     let seen = match (least > 1.0, target.readout) {
-        _ if most <= 1.0 => "which is not visible".to_string(),
+        _ if most <= 1.0 => "not visible".to_string(),
         (false, _) => {
             format!("within {}, the error of the reference", with_unit(target.uncertainty, target))
         }
-        (true, true) => format!("which its digits show {}", samples()),
+        (true, true) => format!("visible in its digits {}", samples()),
         (true, false) => {
             format!(
-                "which its plot shows {} ({} would not)",
+                "visible in its plot {} (an error below {} is not)",
                 samples(),
                 with_unit(target.invisible_error, target)
             )
