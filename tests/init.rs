@@ -57,6 +57,32 @@ fn shells_complete_every_command() {
     }
 }
 
+/// Every command has a manual page with all its options, except the hidden ones.
+#[test]
+fn manual_pages_list_commands_and_options() {
+    let names = run(&["man", "--list"]).stdout;
+    let names: Vec<&str> = names.lines().collect();
+    assert!(names.contains(&"check") && names.len() > 15, "{names:?}");
+    assert!(!names.contains(&"reference") && !names.contains(&"help"), "{names:?}");
+    // Hyphens are escaped in these pages.
+    let page = |arguments: &[&str]| run(&[&["man"], arguments].concat()).stdout.replace("\\-", "-");
+    let program = page(&[]);
+    assert!(program.starts_with(".ie") && program.contains(".TH labspec 1"), "{program}");
+    for name in &names {
+        assert!(program.contains(&format!("labspec-{name}(1)")), "{name}");
+        let of_command = page(&[name]);
+        assert!(of_command.contains(&format!(".TH labspec-{name} 1")), "{of_command}");
+        // The harness takes every output of these two for a report.
+        let help =
+            if ["bench", "record"].contains(name) { String::new() } else { run(&[name, "--help"]).stdout };
+        for option in help.lines().filter_map(|l| l.split([' ', '=', ',']).find(|w| w.starts_with("--"))) {
+            assert!(of_command.contains(option), "{name} {option}");
+        }
+    }
+    let done = run(&["man", "chek"]);
+    assert_eq!((done.code, done.stderr.contains("did you mean `check`?")), (2, true), "{}", done.stderr);
+}
+
 /// The workflow, the action and the hook use existing commands and options of the program.
 #[test]
 fn callers_of_the_program_use_existing_commands() {

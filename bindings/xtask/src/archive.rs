@@ -11,10 +11,40 @@ use std::process::Command;
 /// The documents next to the program.
 const PAPERS: [&str; 5] = ["README.md", "CHANGELOG.md", "LICENSE-MIT", "LICENSE-APACHE", "NOTICE"];
 
+/// The name of the program that cargo builds.
+const PROGRAM: &str = if cfg!(windows) { "labspec.exe" } else { "labspec" };
+
 /// The folder beside the program that has the scripts and styles of pages.
 const PAGE: &str = "page";
 
-/// Builds the program, and writes its archive with a checksum; returns the path of the archive. `build` builds the modules, if the
+/// The programs of an archive: the name of each, and the processors for which it is built. The first one runs on all processors of the
+/// target, and starts another one where the processor has its instructions.
+#[cfg(all(unix, target_arch = "x86_64"))]
+const PROGRAMS: &[(&str, Option<&str>)] =
+    &[("labspec", Some("x86-64")), ("labspec-x86-64-v3", Some("x86-64-v3"))];
+#[cfg(not(all(unix, target_arch = "x86_64")))]
+const PROGRAMS: &[(&str, Option<&str>)] = &[(PROGRAM, None)];
+
+/// A processor without the instructions of x86-64-v3, as the emulator names it.
+const OLD_PROCESSOR: &str = "Nehalem";
+
+/// A lesson without findings.
+const LESSON: &str = r#"# A fall
+
+```lab simlab
+{"xml": "<mujoco><worldbody><body pos='0 0 1'><freejoint/><geom size='0.1'/></body></worldbody></mujoco>",
+ "readouts": [{"label": "height (m)", "expr": "data.qpos[2]"}]}
+```
+"#;
+
+/// A file of the archive: its path in it, its mode, and its bytes.
+struct Packed {
+    path: PathBuf,
+    mode: u32,
+    bytes: Vec<u8>,
+}
+
+/// Builds the programs, and writes their archive with a checksum; returns the path of the archive. `build` builds the modules, if the
 /// scripts of pages are missing.
 pub(crate) fn release(
     folder: Option<PathBuf>,
@@ -22,24 +52,22 @@ pub(crate) fn release(
 ) -> Result<PathBuf, String> {
     let scripts = page::built(build)?;
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let built = Command::new(&cargo)
-        .args(["build", "--release", "--quiet", "--locked", "--package", "labspec-cli"])
-        // Symbols are needed only for profiling.
-        .env("CARGO_PROFILE_RELEASE_STRIP", "symbols")
-        .current_dir(&root)
-        .status()
-        .map_err(|e| format!("cannot run cargo: {e}"))?;
-    if !built.success() {
-        return Err("the program was not built".into());
-    }
     let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from);
-    let program = target.join("release").join(format!("labspec{}", std::env::consts::EXE_SUFFIX));
-    let name = format!("labspec-{}-{}", version(&program)?, host()?);
+    let mut files = Vec::new();
+    for (name, processor) in PROGRAMS {
+        let program = program(&root, &target, *processor)?;
+        files.push(Packed { path: name.into(), mode: 0o755, bytes: read(&program)? });
+        if files.len() == 1 {
+            files.extend(generated(&program)?);
+        }
+    }
+    let first = target.join(folder_of(PROGRAMS[0].1)).join("release").join(PROGRAM);
+    let name = format!("labspec-{}-{}", version(&first)?, host()?);
+    files.extend(copied(&root, &scripts)?);
     let folder = folder.unwrap_or_else(|| target.join("release-archives"));
     fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     let archive = folder.join(format!("{name}.tar.gz"));
-    let bytes = pack(&root, &program, &scripts, &name)?;
+    let bytes = pack(&files, &name)?;
     try_out(&bytes, &name, &folder.join("try"))?;
     let sum: String = Sha256::digest(&bytes).iter().map(|b| format!("{b:02x}")).collect();
     let write =
@@ -51,10 +79,83 @@ pub(crate) fn release(
     Ok(archive)
 }
 
+/// The folder of the builds for a processor.
+fn folder_of(processor: Option<&str>) -> String {
+    processor.map_or_else(|| "for-this-target".into(), |name| format!("for-{name}"))
+}
+
+/// Builds the program for a processor.
+fn program(root: &Path, target: &Path, processor: Option<&str>) -> Result<PathBuf, String> {
+    let folder = target.join(folder_of(processor));
+    let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    cargo
+        .args(["build", "--release", "--quiet", "--locked", "--package", "labspec-cli"])
+        // Symbols are needed only for profiling.
+        .env("CARGO_PROFILE_RELEASE_STRIP", "symbols")
+        .env("CARGO_TARGET_DIR", &folder)
+        .current_dir(root);
+    if let Some(name) = processor {
+        // These flags replace those of `.cargo/config.toml`.
+        cargo.env("RUSTFLAGS", format!("-C target-cpu={name}"));
+    }
+    let built = cargo.status().map_err(|e| format!("cannot run cargo: {e}"))?;
+    if !built.success() {
+        return Err("the program was not built".into());
+    }
+    Ok(folder.join("release").join(PROGRAM))
+}
+
+/// What the program prints for shells and for `man`.
+fn generated(program: &Path) -> Result<Vec<Packed>, String> {
+    let mut files = Vec::new();
+    let mut add = |path: String, arguments: &[&str]| {
+        let bytes = output(program, arguments)?.into_bytes();
+        files.push(Packed { path: path.into(), mode: 0o644, bytes });
+        Ok::<(), String>(())
+    };
+    for (shell, file) in [("bash", "labspec.bash"), ("zsh", "_labspec"), ("fish", "labspec.fish")] {
+        add(format!("completions/{file}"), &["completions", shell])?;
+    }
+    add("man/labspec.1".into(), &["man"])?;
+    for command in output(program, &["man", "--list"])?.lines() {
+        add(format!("man/labspec-{command}.1"), &["man", command])?;
+    }
+    Ok(files)
+}
+
+/// The output of a program that succeeds.
+fn output(program: &Path, arguments: &[&str]) -> Result<String, String> {
+    let done = Command::new(program).args(arguments).output();
+    let done = done.map_err(|e| format!("cannot run {}: {e}", program.display()))?;
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    if done.status.success() {
+        return Ok(text(&done.stdout));
+    }
+    Err(format!("{} {}: {}", program.display(), arguments.join(" "), text(&done.stderr)))
+}
+
+fn read(path: &Path) -> Result<Vec<u8>, String> {
+    fs::read(path).map_err(|e| format!("{}: {e}", path.display()))
+}
+
+/// The documents, and the scripts and styles of pages.
+fn copied(root: &Path, scripts: &Path) -> Result<Vec<Packed>, String> {
+    let mut from: Vec<(PathBuf, PathBuf)> =
+        PAPERS.iter().map(|paper| (root.join(paper), PathBuf::new())).collect();
+    for inside in ["", "fonts"] {
+        let to = Path::new(PAGE).join(inside);
+        from.extend(files_of(&scripts.join(inside))?.into_iter().map(|path| (path, to.clone())));
+    }
+    let packed = |(path, folder): (PathBuf, PathBuf)| {
+        let file = path.file_name().ok_or("a file has no name")?;
+        Ok(Packed { path: folder.join(file), mode: 0o644, bytes: read(&path)? })
+    };
+    from.into_iter().map(packed).collect()
+}
+
 /// The version that the program reports: `labspec 0.1.0`.
 fn version(program: &Path) -> Result<String, String> {
-    let output = Command::new(program).arg("-V").output().map_err(|e| e.to_string())?;
-    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    let text = output(program, &["-V"])?;
     text.split_whitespace()
         .nth(1)
         .map(String::from)
@@ -71,24 +172,16 @@ fn host() -> Result<String, String> {
 }
 
 /// Without times and owners, so that the same files give the same bytes.
-fn pack(root: &Path, program: &Path, scripts: &Path, name: &str) -> Result<Vec<u8>, String> {
-    let mut files = vec![(program.to_path_buf(), PathBuf::new(), 0o755)];
-    files.extend(PAPERS.iter().map(|paper| (root.join(paper), PathBuf::new(), 0o644)));
-    for inside in ["", "fonts"] {
-        let to = Path::new(PAGE).join(inside);
-        files.extend(files_of(&scripts.join(inside))?.into_iter().map(|path| (path, to.clone(), 0o644)));
-    }
+fn pack(files: &[Packed], name: &str) -> Result<Vec<u8>, String> {
     let zip = GzBuilder::new().mtime(0).write(Vec::new(), Compression::best());
     let mut tar = tar::Builder::new(zip);
-    for (path, folder, mode) in files {
-        let bytes = fs::read(&path).map_err(|e| format!("{}: {e}", path.display()))?;
+    for Packed { path, mode, bytes } in files {
         let mut header = tar::Header::new_gnu();
         header.set_size(bytes.len() as u64);
-        header.set_mode(mode);
+        header.set_mode(*mode);
         header.set_mtime(0);
-        let file = path.file_name().ok_or("a file has no name")?;
-        let inside = Path::new(name).join(folder).join(file);
-        tar.append_data(&mut header, inside, bytes.as_slice()).map_err(|e| e.to_string())?;
+        let path = Path::new(name).join(path);
+        tar.append_data(&mut header, path, bytes.as_slice()).map_err(|e| e.to_string())?;
     }
     let zip = tar.into_inner().map_err(|e| e.to_string())?;
     zip.finish().map_err(|e| e.to_string())
@@ -112,16 +205,17 @@ fn try_out(archive: &[u8], name: &str, folder: &Path) -> Result<(), String> {
     }
     let lessons = folder.join("lessons");
     fs::create_dir_all(&lessons).map_err(failed)?;
-    fs::write(lessons.join("a.md"), "# A\n\n```lab simlab\n{\"xml\": \"<mujoco/>\"}\n```\n")
-        .map_err(failed)?;
+    fs::write(lessons.join("a.md"), LESSON).map_err(failed)?;
     tar::Archive::new(GzDecoder::new(archive)).unpack(folder).map_err(failed)?;
-    let program = folder.join(name).join(format!("labspec{}", std::env::consts::EXE_SUFFIX));
+    let unpacked = folder.join(name);
+    let program = unpacked.join(PROGRAMS[0].0);
+    try_processors(&unpacked, &program, &lessons)?;
     let site = folder.join("site");
     let mut command = Command::new(&program);
     command.arg("build").arg(&lessons).arg("--out").arg(&site).env_remove("LABSPEC_PAGE");
     let output = command.output().map_err(failed)?;
     // The program finds the scripts beside itself before it looks in the repository around it.
-    let of_archive = folder.join(name).join(PAGE).join("site.js");
+    let of_archive = unpacked.join(PAGE).join("site.js");
     let same =
         fs::read(of_archive).map_err(failed)? == fs::read(site.join("page/site.js")).unwrap_or_default();
     if !same {
@@ -129,6 +223,36 @@ fn try_out(archive: &[u8], name: &str, folder: &Path) -> Result<(), String> {
         return Err(format!("the packed program builds no site: {message}"));
     }
     fs::remove_dir_all(folder).map_err(failed)
+}
+
+/// Runs the program where a faster one is beside it, where there is none, and on an emulated old processor, if `qemu-x86_64` is
+/// installed. It says which instructions the program that ran was built for.
+fn try_processors(unpacked: &Path, program: &Path, lessons: &Path) -> Result<(), String> {
+    let [.., (faster, Some(_))] = PROGRAMS else { return Ok(()) };
+    let has_instructions = |text: &str, name: &str| match text.contains(name) {
+        true => Ok(()),
+        false => Err(format!("the program was not built for {name}: {text}")),
+    };
+    #[cfg(target_arch = "x86_64")]
+    if std::arch::is_x86_feature_detected!("avx2") {
+        has_instructions(&output(program, &["--version"])?, "AVX2")?;
+    }
+    let (faster, aside) = (unpacked.join(faster), unpacked.join("aside"));
+    fs::rename(&faster, &aside).map_err(|e| format!("{}: {e}", faster.display()))?;
+    has_instructions(&output(program, &["--version"])?, "SSE2")?;
+    fs::rename(&aside, &faster).map_err(|e| format!("{}: {e}", faster.display()))?;
+    let emulator = Path::new("qemu-x86_64");
+    if Command::new(emulator).arg("--version").output().is_err() {
+        eprintln!("xtask: qemu-x86_64 is not installed, so the program is not tried on an old processor");
+        return Ok(());
+    }
+    let (program, lessons) = (program.display().to_string(), lessons.display().to_string());
+    let emulated = |arguments: &[&str]| {
+        output(emulator, &[&["-cpu", OLD_PROCESSOR, program.as_str()], arguments].concat())
+    };
+    has_instructions(&emulated(&["--version"])?, "SSE2")?;
+    // The lab of this lesson runs, and has no findings.
+    emulated(&["check", "--no-cache", &lessons]).map(drop)
 }
 
 #[cfg(test)]
@@ -142,15 +266,15 @@ mod tests {
         let scripts = root.join("dist");
         fs::create_dir_all(scripts.join("fonts")).unwrap();
         fs::create_dir_all(scripts.join("cache")).unwrap();
-        let written = PAPERS.into_iter().chain([
-            "labspec",
-            "dist/site.js",
-            "dist/labspec.wasm",
-            "dist/fonts/a.woff2",
-            "dist/cache/x",
-        ]);
+        let of_pages = ["dist/site.js", "dist/labspec.wasm", "dist/fonts/a.woff2", "dist/cache/x"];
+        let written = PAPERS.into_iter().chain(of_pages);
         written.for_each(|name| fs::write(root.join(name), name).unwrap());
-        let packed = || pack(&root, &root.join("labspec"), &scripts, "labspec-1").unwrap();
+        let packed = || {
+            let program = Packed { path: "labspec".into(), mode: 0o755, bytes: b"program".to_vec() };
+            let files: Vec<Packed> =
+                std::iter::once(program).chain(copied(&root, &scripts).unwrap()).collect();
+            pack(&files, "labspec-1").unwrap()
+        };
         let bytes = packed();
         assert_eq!(bytes, packed(), "the same files give the same bytes");
         let mut archive = tar::Archive::new(GzDecoder::new(bytes.as_slice()));

@@ -6,9 +6,10 @@
 //! `web/`. If the package `binaryen` is installed in `web/`, its `wasm-opt` reduces the size of the modules. If rustup is
 //! installed, the compilation target is added if necessary. `LABSPEC_PROFILE=quick` builds slow and large modules in a minute.
 //!
-//! `… -- release [FOLDER]` builds the program for this machine and packs it with its licences and the scripts of pages into
-//! `labspec-VERSION-TARGET.tar.gz`, next to a file with its SHA-256, in FOLDER (`target/release-archives`). The same
-//! program gives the same bytes.
+//! `… -- release [FOLDER]` builds the program for this machine and packs it with its licences, manual pages, completions and the
+//! scripts of pages into `labspec-VERSION-TARGET.tar.gz`, next to a file with its SHA-256, in FOLDER (`target/release-archives`). The
+//! same program gives the same bytes. On x86-64 the program is built twice: for every processor, and with AVX2, which the first one
+//! starts where the processor has it. The archive is tried, also on an emulated old processor if `qemu-x86_64` is installed.
 //!
 //! `… -- page` builds the modules, then the npm packages up to the scripts and styles of pages, which `labspec build` and `labspec
 //! preview` find in `web/site/dist`.

@@ -7,7 +7,7 @@ use super::output::write_file;
 use super::output_kind::OutputKind;
 use super::stdio::{self, print_error};
 use super::{
-    build, check, completions, config, developer, explain, fmt, init, plan, precision, preview,
+    build, check, completions, config, developer, explain, fmt, init, man, plan, precision, preview,
     report_schema, run, scaffold, schema, snapshot, stability, trace,
 };
 use clap::{CommandFactory, Parser, Subcommand};
@@ -84,6 +84,8 @@ enum Command {
     Bench(developer::BenchArguments),
     /// Print a completion script for a shell
     Completions(completions::CompletionsArguments),
+    /// Print a manual page: of the program, or of a command
+    Man(man::ManArguments),
     /// Write the reference pages, and the JSON Schemas into the folder `schema` beside them
     #[command(hide = true)]
     Reference {
@@ -132,6 +134,7 @@ fn execute(command: &Command) -> Result<CommandOutcome, Failure> {
     match command {
         Command::Init(a) => init::init(a),
         Command::Completions(a) => completions::completions(a, &mut Cli::command()),
+        Command::Man(a) => man::man(a, &mut Cli::command()),
         Command::Check(a) => check::check_command(a),
         Command::Verify(a) => check::verify_command(a),
         Command::Build(a) => build::build(a),

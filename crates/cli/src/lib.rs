@@ -29,6 +29,7 @@ mod listings;
 #[cfg(feature = "lsp")]
 mod lsp;
 mod machine;
+mod man;
 mod output;
 mod output_kind;
 mod overview;
