@@ -42,6 +42,7 @@ mod ledger;
 mod lessons;
 mod levels;
 mod links;
+mod listing_lessons;
 mod listings;
 mod lists;
 mod loads;
