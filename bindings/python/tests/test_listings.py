@@ -13,7 +13,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from conftest import needs
+from conftest import listing_settings, needs
 
 SHARED = next((folder / "shared" for folder in Path(__file__).resolve().parents if (folder / "shared/lesson-0.1").is_dir()), None)
 
@@ -82,9 +82,7 @@ def folder(tmp_path):
             pytest.fail("the shared lesson is not there")
         pytest.skip("the shared lesson is not there")
     shutil.copytree(SHARED / "corpus/models", tmp_path / "models")
-    namespaces = ["unshare", "--user", "--map-root-user", "--net", "--pid", "--kill-child=KILL", "true"]
-    isolated = shutil.which("unshare") and subprocess.run(namespaces, capture_output=True, check=False).returncode == 0
-    settings = f"[listings]\npython = {json.dumps(sys.executable)}\nfiles = [\"models\"]\n" + "network = true\n" * (not isolated)
+    settings = listing_settings(f"python = {json.dumps(sys.executable)}", 'files = ["models"]')
     (tmp_path / "labspec.toml").write_text(settings, encoding="utf-8")
     return tmp_path
 
