@@ -43,6 +43,7 @@ mod lessons;
 mod levels;
 mod links;
 mod listing_lessons;
+mod listing_numbers;
 mod listings;
 mod lists;
 mod loads;
