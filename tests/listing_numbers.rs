@@ -30,8 +30,8 @@ Output:
 ```
 ";
 
-/// The report of a check, or `None` where listings cannot run.
-fn check(text: &str, options: &[&str]) -> Option<(Value, String)> {
+/// A folder with the lesson, or `None` where listings cannot run.
+fn folder(text: &str) -> Option<tempfile::TempDir> {
     if !needs("python3") || !needs("../shared/corpus") {
         return None;
     }
@@ -41,6 +41,12 @@ fn check(text: &str, options: &[&str]) -> Option<(Value, String)> {
     std::fs::write(folder.path().join("a.md"), text).unwrap();
     let network = if is_available("unshare") { "" } else { "network = true" };
     std::fs::write(folder.path().join("labspec.toml"), format!("[listings]\n{network}\n")).unwrap();
+    Some(folder)
+}
+
+/// The report of a check, and its text for people; `None` where listings cannot run.
+fn check(text: &str, options: &[&str]) -> Option<(Value, String)> {
+    let folder = folder(text)?;
     let human = run_in(folder.path(), &[&["check", "a.md"], options].concat()).stdout;
     let done = run_in(folder.path(), &[&["check", "a.md", "--format", "json"], options].concat());
     let report = serde_json::from_str(&done.stdout).unwrap_or_else(|e| panic!("{e}: {}", done.stderr));
@@ -149,4 +155,16 @@ fn quoted_numbers_stay_quoted() {
         (&1.into(), &0.into()),
         "{report:#}"
     );
+}
+
+/// The page of a check lists the numbers that nothing claims.
+#[test]
+fn the_page_of_a_check_counts_the_numbers_of_outputs_as_claimed() {
+    let text = format!("{TEXT}\n{LAB}\n{LISTING}");
+    for (options, is_claimed) in [(&[][..], false), (&["--listings"], true)] {
+        let Some(folder) = folder(&text) else { return };
+        run_in(folder.path(), &[&["check", "a.md", "--html", "page.html"], options].concat());
+        let page = std::fs::read_to_string(folder.path().join("page.html")).unwrap();
+        assert_eq!(page.contains("that nothing claims"), !is_claimed, "{options:?}");
+    }
 }
