@@ -42,6 +42,8 @@ mod ledger;
 mod lessons;
 mod levels;
 mod links;
+mod listing_lessons;
+mod listing_numbers;
 mod listings;
 mod lists;
 mod loads;

@@ -39,7 +39,7 @@ mod _labspec {
     #[pymodule_export]
     use crate::program::run_program;
     #[pymodule_export]
-    use crate::report::check;
+    use crate::report::{check, listings};
     #[pymodule_export]
     use crate::sweep::{lab_json, measure};
 

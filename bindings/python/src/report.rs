@@ -6,6 +6,9 @@ use facade::Checker;
 use facade::check::CheckLevel;
 use facade::finding::Finding;
 use facade::ledger::Entry;
+use facade::listings::{Listing, pair_listings};
+use facade::source::SourceFile;
+use facade::spec::read_lesson;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -78,4 +81,14 @@ pub(crate) fn check<'py>(
     }
     let lesson = labspec_cli::lesson_report(&report.checked).to_string();
     Ok((report.outcome().as_str(), findings, claims, lesson))
+}
+
+/// The Python listings of a lesson that have an output: the name of each in the ledger, its first line, and the last line of its output.
+/// Nothing is run.
+#[pyfunction]
+pub(crate) fn listings(path: &str, text: &str) -> Vec<(String, usize, usize)> {
+    let lesson = read_lesson(SourceFile::new(path, text));
+    let line = |offset: usize| lesson.file.position(offset).line;
+    let describe = |listing: &Listing<'_>| (listing.name(), line(listing.info.start), line(listing.span().end));
+    pair_listings(&lesson).iter().map(describe).collect()
 }

@@ -2,6 +2,8 @@
 
 import importlib
 import os
+import shutil
+import subprocess
 
 import pytest
 
@@ -14,6 +16,13 @@ def needs(name):
         if os.environ.get("LABSPEC_REQUIRE") == "all":
             raise
         pytest.skip(f"{name} is not installed: {e}")
+
+
+def listing_settings(*lines):
+    """Settings of listings. Where the network cannot be switched off, listings run with it."""
+    namespaces = ["unshare", "--user", "--map-root-user", "--net", "--pid", "--kill-child=KILL", "true"]
+    isolated = shutil.which("unshare") and subprocess.run(namespaces, capture_output=True, check=False).returncode == 0
+    return "\n".join(["[listings]", *lines, *["network = true"] * (not isolated), ""])
 
 
 @pytest.fixture

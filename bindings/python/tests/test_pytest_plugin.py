@@ -1,8 +1,12 @@
 """Lessons as tests."""
 
+import json
+import sys
 from pathlib import Path
+from xml.etree import ElementTree
 
 import pytest
+from conftest import listing_settings
 
 pytest_plugins = ["pytester"]
 SPECS = Path(__file__).resolve().parents[3] / "specs"
@@ -37,6 +41,8 @@ def test_a_wrong_key_fails_with_its_evidence(lessons):
     result = run(lessons, "wrong.md")
     assert result.parseoutcomes()["failed"] == 1
     result.stdout.fnmatch_lines(["*answer*refuted*", "*error*answer-refuted*"])
+    again = run(lessons, "wrong.md", "--lf").parseoutcomes()
+    assert again["failed"] == 1 and "passed" not in again
     one = run(lessons, "wrong.md", "-k", "lab")
     assert "failed" not in one.parseoutcomes()
 
@@ -56,3 +62,153 @@ def test_what_belongs_to_no_claim_fails_too(lessons):
 def test_without_the_option_nothing_is_collected(lessons):
     outcomes = lessons.runpytest().parseoutcomes()
     assert outcomes.keys() <= {"warnings"}
+
+
+LISTINGS = """# A fall
+
+```python
+import course
+course.note(1)
+print(f"t = {(2 * 0.95 / course.G) ** 0.5:.4f} s")
+```
+Output:
+```text
+t = 0.4401 s
+```
+
+```python file=examples/speed.py
+import course
+course.note(2)
+print("v =", 4.317, "m/s")
+```
+
+Output:
+
+```text
+v = 4.317 m/s
+```
+
+```python
+import course
+course.note(3)
+print(-1)
+```
+
+Output:
+
+```text
+-1
+```
+"""
+
+
+@pytest.fixture
+def listings(pytester, monkeypatch):
+    """A lesson with three listings, which note in a file of the folder that they run. Nothing is stored outside of the folder."""
+    trace = json.dumps(str(pytester.path / "trace"))
+    pytester.path.joinpath("course.py").write_text(f"G = 9.81\n\ndef note(n):\n    open({trace}, 'a').write(str(n))\n", encoding="utf-8")
+    settings = listing_settings(f"python = {json.dumps(sys.executable)}", 'files = ["course.py"]')
+    pytester.path.joinpath("labspec.toml").write_text(settings, encoding="utf-8")
+    pytester.path.joinpath("fall.md").write_text(LISTINGS, encoding="utf-8")
+    monkeypatch.setenv("LABSPEC_CACHE", "")
+    return pytester
+
+
+def runs(listings):
+    """The numbers of the listings that ran, in order."""
+    trace = listings.path / "trace"
+    return trace.read_text(encoding="utf-8") if trace.exists() else ""
+
+
+def change(listings, old, new):
+    text = listings.path.joinpath("fall.md").read_text(encoding="utf-8")
+    assert old in text
+    listings.path.joinpath("fall.md").write_text(text.replace(old, new), encoding="utf-8")
+
+
+def test_listings_are_tests_and_run_once(listings):
+    result = listings.runpytest("--labspec-listings", "-v", "-rs")
+    assert result.parseoutcomes() == {"passed": 3}
+    result.stdout.fnmatch_lines([f"fall.md::listing[[]{n}] PASSED*" for n in (1, 2, 3)])
+    assert runs(listings) == "123"
+
+
+def test_the_setting_runs_listings_beside_labs(listings):
+    listings.makeini("[pytest]\nlabspec_listings = true\n")
+    assert listings.runpytest().parseoutcomes() == {"passed": 3}
+    both = listings.runpytest("--labspec", "-v")
+    both.stdout.fnmatch_lines(["*listing[[]3] PASSED*"])
+    assert both.parseoutcomes()["passed"] >= 3
+
+
+def test_nothing_runs_by_default(listings):
+    for options in ([], ["--labspec"], ["--labspec-listings", "--collect-only"]):
+        listings.runpytest(*options)
+        assert runs(listings) == ""
+
+
+def test_a_changed_digit_fails_with_both_texts_and_the_place(listings):
+    change(listings, "v = 4.317 m/s\n```", "v = 4.318 m/s\n```")
+    result = listings.runpytest("--labspec-listings", "--junit-xml", "report.xml")
+    assert result.parseoutcomes() == {"failed": 1, "passed": 2}
+    result.stdout.fnmatch_lines(["*listing[[]2]*", "*fall.md:22:5: error[[]listing-output]: the lesson shows `4.318`, the listing prints `4.317`", "*help: write*"])
+    cases = {case.get("name"): case for case in ElementTree.parse(listings.path / "report.xml").iter("testcase")}
+    assert sorted(cases) == [f"listing[{n}]" for n in (1, 2, 3)]
+    assert "prints `4.317`" in cases["listing[2]"].find("failure").text and cases["listing[1]"].find("failure") is None
+
+
+def test_options_select_listings(listings):
+    change(listings, "\n-1\n", "\n-2\n")
+    assert listings.runpytest("--labspec-listings", "-k", "listing and 2").parseoutcomes() == {"passed": 1, "deselected": 2}
+    assert listings.runpytest("--labspec-listings", "fall.md::listing[1]").parseoutcomes() == {"passed": 1}
+    assert listings.runpytest("--labspec-listings").parseoutcomes() == {"failed": 1, "passed": 2}
+    assert listings.runpytest("--labspec-listings", "--lf").parseoutcomes() == {"failed": 1}
+
+
+def test_a_listing_that_raises_fails_at_its_line(listings):
+    change(listings, 'print("v =", 4.317, "m/s")', "print(1 / 0)")
+    result = listings.runpytest("--labspec-listings")
+    assert result.parseoutcomes() == {"failed": 1, "passed": 2}
+    result.stdout.fnmatch_lines(["*fall.md:16:1: error[[]listing-fails]*ZeroDivisionError*"])
+
+
+@pytest.mark.parametrize(
+    ("settings", "message"),
+    [
+        ('[listings]\npython = "nowhere/python"\n', "*nowhere/python does not run*"),
+        ("[listings]\nsecond = 5\n", "*exit code 2*did you mean `seconds`*"),
+        ("[listings]\nseconds = 0\n", "*exit code 2*from 1 to 3600*"),
+    ],
+)
+def test_what_cannot_be_run_fails(listings, settings, message):
+    listings.path.joinpath("labspec.toml").write_text(settings, encoding="utf-8")
+    result = listings.runpytest("--labspec-listings")
+    assert result.parseoutcomes() == {"failed": 3}
+    result.stdout.fnmatch_lines([message])
+    assert runs(listings) == ""
+
+
+def test_what_the_settings_ignore_fails(listings):
+    change(listings, "\n-1\n", "\n-2\n")
+    settings = listings.path / "labspec.toml"
+    settings.write_text('ignore = ["listing-output"]\n' + settings.read_text(encoding="utf-8"), encoding="utf-8")
+    assert listings.runpytest("--labspec-listings").parseoutcomes() == {"failed": 1, "passed": 2}
+
+
+def test_a_lesson_that_changes_after_its_tests_were_collected_fails(listings):
+    listings.makeconftest(
+        "def pytest_collection_finish(session):\n"
+        "    path = session.config.rootpath / 'fall.md'\n"
+        "    path.write_text(path.read_text(encoding='utf-8').replace('```text\\n-1', '```json\\n-1'), encoding='utf-8')\n"
+    )
+    result = listings.runpytest("--labspec-listings")
+    assert result.parseoutcomes() == {"failed": 1, "passed": 2}
+    result.stdout.fnmatch_lines(["*has changed since its tests were collected*"])
+
+
+def test_hostile_files_are_collected(listings):
+    listings.path.joinpath("fall.md").write_bytes(LISTINGS.encode() + b"\xff\xfe")
+    listings.path.joinpath("-x.md").write_text(LISTINGS, encoding="utf-8")
+    listings.path.joinpath("empty.md").write_bytes(b"")
+    result = listings.runpytest("--labspec-listings", ".")
+    assert result.parseoutcomes() == {"passed": 6}

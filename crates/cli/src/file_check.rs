@@ -159,6 +159,7 @@ fn check_lesson(
     let listings = request.listings.map_or_else(Vec::new, |runner| {
         runner.check_lesson(&lesson, &policy.listings, &mut outcome.findings)
     });
+    let printed = check::claim_printed_numbers(&lesson, &listings, &mut outcome);
     // Runs may have been incomplete, and an incomplete check has no result.
     if interrupted() {
         return FileOutcome::Interrupted;
@@ -176,7 +177,7 @@ fn check_lesson(
         return FileOutcome::Interrupted;
     }
     let curves = if request.with_curves { check::curves(&lesson, models) } else { Vec::new() };
-    let checked = Checked { listings, ..check::join(lesson, outcome, request.level) };
+    let checked = Checked { listings, printed, ..check::join(lesson, outcome, request.level) };
     let suppressed = SuppressedFindings::default();
     FileOutcome::Lesson(Box::new(LessonOutcome {
         checked,

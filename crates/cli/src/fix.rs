@@ -62,7 +62,8 @@ pub(super) fn fix(request: &CheckRequest<'_>, mode: FixMode) -> Result<AppliedFi
         let look = |lesson: Lesson| {
             let mut found = check::run_checks(&lesson, &models, request.level);
             if let Some(listings) = request.listings {
-                listings.check_lesson(&lesson, &policy.listings, &mut found.findings);
+                let results = listings.check_lesson(&lesson, &policy.listings, &mut found.findings);
+                check::claim_printed_numbers(&lesson, &results, &mut found);
             }
             let broken = lesson.broken.len();
             let checked = check::join(lesson, found, request.level);

@@ -77,6 +77,8 @@ struct ClaimCounts {
     snapshot: Count,
     /// Listings that print the output below them (`--listings`).
     listing: Count,
+    /// Numbers in the text that the output of such a listing has (`--listings`).
+    printed_number: Count,
 }
 
 impl ClaimCounts {
@@ -93,6 +95,7 @@ impl ClaimCounts {
             closed_form: ledger.count(Subject::ClosedForm),
             snapshot: ledger.count(Subject::Snapshot),
             listing: ledger.count(Subject::Listing),
+            printed_number: ledger.count(Subject::PrintedNumber),
         }
     }
 }

@@ -123,6 +123,9 @@ fn format_entries(entry: &Entry, n: usize) -> Option<String> {
         Subject::Answer if good => format!("{word:<10} {owner}"),
         Subject::Answer => format!("{word:<10} {owner}{remark}"),
         Subject::Option => format!("{word:<10} {owner}, option {what}"),
+        Subject::PrintedNumber => {
+            format!("{word:<10} {owner}, {} of the text", counted(n, "number"))
+        }
         Subject::Quote | Subject::ClosedForm if good => {
             format!("{word:<10} {owner}, {}", counted(n, entry.subject.as_str()))
         }

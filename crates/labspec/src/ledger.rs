@@ -35,6 +35,8 @@ pub enum Subject {
     Snapshot,
     /// A listing prints the output that the lesson displays below it.
     Listing,
+    /// A number in the text is in the output of a listing, which the listing prints.
+    PrintedNumber,
 }
 
 impl Subject {
@@ -49,7 +51,7 @@ impl Subject {
     ];
 
     /// Every subject, in the order of summaries.
-    pub const ALL: [Subject; 11] = [
+    pub const ALL: [Subject; 12] = [
         Subject::File,
         Subject::Model,
         Subject::Lab,
@@ -61,6 +63,7 @@ impl Subject {
         Subject::ClosedForm,
         Subject::Snapshot,
         Subject::Listing,
+        Subject::PrintedNumber,
     ];
 
     /// The singular in words.
@@ -77,6 +80,7 @@ impl Subject {
             Subject::ClosedForm => "closed form",
             Subject::Snapshot => "snapshot",
             Subject::Listing => "listing",
+            Subject::PrintedNumber => "printed number",
         }
     }
 }
@@ -419,6 +423,7 @@ fn summary_counts(subject: Subject, c: &Count) -> Vec<[(usize, &'static str); 2]
             [(c.simulated, "as displayed"), (c.wrong, "not as displayed")],
             [(c.unchecked, "could not be checked"), (c.skipped, "left out")],
         ],
+        Subject::PrintedNumber => vec![[(c.simulated, "in the output of listings"), (0, "")]],
         Subject::Answer | Subject::Quote | Subject::ClosedForm => vec![
             [(c.simulated, "verified"), (c.computed, "computed")],
             [(c.wrong, "wrong"), (c.unchecked, "could not be checked")],
@@ -429,7 +434,10 @@ fn summary_counts(subject: Subject, c: &Count) -> Vec<[(usize, &'static str); 2]
 
 fn push_counts(parts: &mut Vec<String>, subject: Subject, counts: [(usize, &str); 2]) {
     for (n, word) in counts.into_iter().filter(|(n, _)| *n > 0) {
-        let mut part = counted(n, subject.as_str());
+        let mut part = match subject {
+            Subject::PrintedNumber => counted(n, "number"),
+            subject => counted(n, subject.as_str()),
+        };
         let space = if word.is_empty() { "" } else { " " };
         let _ = write!(part, "{space}{word}");
         parts.push(part);

@@ -138,6 +138,7 @@ def check(
     level: str = "full",
     progress: Callable[[str], object] | None = None,
 ) -> tuple[str, list[dict[str, Any]], list[dict[str, Any]], str]: ...
+def listings(path: str, text: str) -> list[tuple[str, int, int]]: ...
 def precision(
     source: Mapping[str, str | None],
     models: _Files,

@@ -3,35 +3,53 @@
 A test fails if a claim of its lab, question or comment is false or could not be checked, or if it has an error or a warning. A question without
 a claim is skipped, and so is what was not checked: nothing was verified. ``text`` has all findings that belong to no other test, so that the tests
 of a lesson pass only if ``labspec check`` reports nothing but notes. A lesson is checked once, when its first test runs.
+
+``pytest --labspec-listings``, or ``labspec_listings = true`` in the settings of pytest, collects ``lesson.md::listing[3]``: the third Python listing
+that has an output below it. ``labspec check --listings`` runs the listings of a lesson, once, when its first test of a listing runs. Such a test passes
+only if its listing was run and prints the displayed output; it is never skipped. Listings are programs: run only those that you trust with your files.
 """
 
 from __future__ import annotations
 
+import json
 import re
+import subprocess
+import sys
 from collections.abc import Iterator
+from dataclasses import fields
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal, TypeVar
 
 import pytest
 
+from . import _labspec
 from ._check import Claim, Finding, Report, check
 
 _LAB = re.compile(r'lab (#\S+)(?: "(.*)")?$', re.DOTALL)
 _QUESTION = re.compile(r"quiz (.*), question (\d+)$", re.DOTALL)
 _FAILED = ("false", "unchecked")
 _PROBLEMS = ("error", "warning")
+_Row = TypeVar("_Row", Claim, Finding)
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """Adds ``--labspec``."""
+    """Adds ``--labspec`` and ``--labspec-listings``."""
     group = parser.getgroup("labspec")
     group.addoption("--labspec", action="store_true", help="collect lessons with labs and quizzes (.md) as tests")
     group.addoption("--labspec-models", metavar="FOLDER", help="the models of the labs [default: `models` beside or above a lesson]")
+    about = "run the Python listings of lessons (.md) that have an output below them, and compare the output; run only those that you trust with your files"
+    group.addoption("--labspec-listings", action="store_true", help=about)
+    kind: Literal["bool"] = "bool"
+    parser.addini("labspec_listings", about, type=kind, default=False)
+
+
+def _collects_listings(config: pytest.Config) -> bool:
+    return bool(config.getoption("--labspec-listings") or config.getini("labspec_listings"))
 
 
 def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
-    """Collects a Markdown file with labs or quizzes."""
-    if not parent.config.getoption("--labspec") or file_path.suffix != ".md":
+    """Collects a Markdown file with labs, quizzes or listings."""
+    if file_path.suffix != ".md" or not (parent.config.getoption("--labspec") or _collects_listings(parent.config)):
         return None
     return LessonFile.from_parent(parent, path=file_path)
 
@@ -40,6 +58,7 @@ class LessonFile(pytest.File):
     """A lesson."""
 
     _report: Report | None = None
+    _listing_report: dict[str, Any] | str | None = None
 
     def check(self, *, runs: bool) -> Report:
         """Checks the lesson."""
@@ -52,7 +71,38 @@ class LessonFile(pytest.File):
             self._report = self.check(runs=True)
         return self._report
 
+    @property
+    def listing_report(self) -> dict[str, Any] | str:
+        """The report of ``labspec check --listings``, made once, or the message of a check that failed."""
+        if self._listing_report is None:
+            self._listing_report = self._run_listings()
+        return self._listing_report
+
+    def _run_listings(self) -> dict[str, Any] | str:
+        models = self.config.getoption("--labspec-models")
+        command = [sys.executable, "-P", "-m", "labspec", "check", str(self.path), "--listings", "--format", "json"]
+        command += ["--models", str(models)] if models else []
+        result = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, check=False)
+        try:
+            report = json.loads(result.stdout)
+            if result.returncode in (0, 1) and isinstance(report, dict):
+                return report
+        except ValueError:
+            pass
+        message = result.stderr.decode("utf-8", "replace").strip()
+        return f"`labspec check --listings` failed with exit code {result.returncode}: {message}"
+
     def collect(self) -> Iterator[pytest.Item | pytest.Collector]:
+        """Yields the tests of the lesson."""
+        if self.config.getoption("--labspec"):
+            yield from self._claims()
+        if _collects_listings(self.config):
+            text = self.path.read_bytes().decode("utf-8", "replace")
+            for owner, first, last in _labspec.listings(str(self.path), text):
+                number = owner.partition("#")[2]
+                yield ListingItem.from_parent(self, name=f"listing[{number}]", owner=owner, lines=(first, last))
+
+    def _claims(self) -> Iterator[pytest.Item | pytest.Collector]:
         """Yields a test for each lab, a group for each quiz, and one for the rest of the text."""
         found = self.check(runs=False)
         owners = dict.fromkeys(c.owner for c in found.claims if c.subject != "file")
@@ -88,7 +138,26 @@ class ClaimFailure(Exception):
     """A claim that is false or was not checked, or an error in a lab."""
 
 
-class ClaimItem(pytest.Item):
+class _EvidenceItem(pytest.Item):
+    """A test that fails with evidence."""
+
+    def __init__(self, *, name: str, parent: pytest.Collector, **more: Any) -> None:
+        # As text: `--lf` reads ids from text, and takes brackets for parameters.
+        super().__init__(name=name, parent=parent, nodeid=f"{parent.nodeid}::{name}", **more)
+
+    def _lesson(self) -> LessonFile:
+        lesson = self.getparent(LessonFile)
+        assert lesson is not None
+        return lesson
+
+    def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
+        """The evidence, without a traceback."""
+        if isinstance(excinfo.value, ClaimFailure):
+            return str(excinfo.value)
+        return super().repr_failure(excinfo, style)
+
+
+class ClaimItem(_EvidenceItem):
     """The claims of a lab, a question or the text."""
 
     def __init__(self, *, owners: tuple[str, ...], elsewhere: tuple[str, ...] | None = None, **more: Any) -> None:
@@ -96,11 +165,6 @@ class ClaimItem(pytest.Item):
         self._owners = owners
         #: The owners of the other tests of the lesson, if this one has all that belongs to none of them.
         self._elsewhere = elsewhere
-
-    def _lesson(self) -> LessonFile:
-        lesson = self.getparent(LessonFile)
-        assert lesson is not None
-        return lesson
 
     def runtest(self) -> None:
         """Checks the lesson, if that has not been done, and looks at these claims."""
@@ -124,15 +188,43 @@ class ClaimItem(pytest.Item):
         if not decided:
             pytest.skip("it has no claim, so nothing was verified")
 
-    def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
-        """The evidence, without a traceback."""
-        if isinstance(excinfo.value, ClaimFailure):
-            return str(excinfo.value)
-        return super().repr_failure(excinfo, style)
-
     def reportinfo(self) -> tuple[Path, int | None, str]:
         """The place in the lesson."""
         return self.path, None, self.nodeid.partition("::")[2]
+
+
+class ListingItem(_EvidenceItem):
+    """A Python listing with an output below it."""
+
+    def __init__(self, *, owner: str, lines: tuple[int, int], **more: Any) -> None:
+        super().__init__(**more)
+        self._owner = owner
+        self._lines = lines
+
+    def runtest(self) -> None:
+        """Runs the listings of the lesson, if that has not been done, and looks at this one."""
+        report = self._lesson().listing_report
+        if isinstance(report, str):
+            raise ClaimFailure(report)
+        rows = [row for row in report["ledger"] if row["subject"] == "listing" and row["owner"] == self._owner]
+        claims = [_of_json(Claim, row | {"part": row["what"]}) for row in rows]
+        first, last = self._lines
+        about = [f for f in report["findings"] if f["code"].startswith("listing-") and first <= (f["line"] or 0) <= last]
+        findings = [_of_json(Finding, f) for f in about if f["severity"] in _PROBLEMS]
+        if not claims:
+            raise ClaimFailure(f"{self._owner} is not in the report of `labspec check --listings`; the lesson has changed since its tests were collected")
+        failed = [c for c in claims if c.state != "true"]
+        if failed or findings:
+            raise ClaimFailure(_evidence(failed, findings))
+
+    def reportinfo(self) -> tuple[Path, int | None, str]:
+        """The place in the lesson."""
+        return self.path, self._lines[0] - 1, self.nodeid.partition("::")[2]
+
+
+def _of_json(kind: type[_Row], row: dict[str, Any]) -> _Row:
+    """A row of the report as an object; other keys are ignored."""
+    return kind(**{field.name: row[field.name] for field in fields(kind) if field.name in row})
 
 
 def _is_about(finding: Finding, owners: tuple[str, ...], claims: list[Claim]) -> bool:

@@ -59,6 +59,7 @@ fn lesson(c: &Checked, ledger: &mut Ledger) {
     entries.add_snapshots();
     entries.add_claims();
     entries.add_listings();
+    entries.add_printed_numbers();
     add_skipped_parts(c, &mut all);
     for mut entry in all {
         // A page cannot read a block with invalid JSON, even if the parser recovered from the errors.
@@ -150,6 +151,15 @@ impl LessonEntries<'_> {
             let about =
                 self.entry(Subject::Snapshot, &owner, &snapshot.span, snapshot.state, snapshot.word());
             self.entries.push(Entry { remark: snapshot.remark(), ..about });
+        }
+    }
+
+    fn add_printed_numbers(&mut self) {
+        // What is displayed is a part of the claim of its listing.
+        for number in self.checked.printed.iter().filter(|number| !number.is_displayed) {
+            let state = State::True(Evidence::Simulated);
+            let about = self.entry(Subject::PrintedNumber, &number.listing, &number.span, state, "printed");
+            self.entries.push(Entry { what: number.quote.clone(), ..about });
         }
     }
 

@@ -14,6 +14,7 @@ pub(crate) mod lab_runs;
 pub(crate) mod observations;
 mod partners;
 mod prepared_lab;
+mod printed_numbers;
 pub(crate) mod programs;
 mod reproduce;
 mod resolved_labs;
@@ -29,6 +30,7 @@ pub use curves::{VerifyCurves, curves};
 pub use entries::{ledger, measure_lines, option_lines};
 pub use judge::{CrossCheck, ReferenceRecording, Request, file_name, hear};
 pub use lab_runs::Coverage;
+pub use printed_numbers::{PrintedNumber, claim_printed_numbers};
 pub use reproduce::{Basis, ClaimBasis, LabBasis, RunSettings, basis};
 pub use snapshot::{Divergence, SnapshotResult, SnapshotUpdate, UpdatedLab, update_snapshot};
 pub use units::labels as labels_of;
@@ -80,6 +82,8 @@ pub struct Checked {
     pub snapshots: Vec<SnapshotResult>,
     /// The listings that were run, or should have been.
     pub listings: Vec<ListingResult>,
+    /// The numbers of the text that the outputs of listings have.
+    pub printed: Vec<PrintedNumber>,
     /// Findings that the author has suppressed with a reason.
     pub allowed: Vec<SuppressedFinding>,
     /// The level of the check.
@@ -239,7 +243,17 @@ pub fn join(lesson: Lesson, found: LabOutcome, level: CheckLevel) -> Checked {
     }
     finding::sort(&mut all);
     debug_assert_eq!(undeclared_severity(&all), None, "a severity that the rule does not declare");
-    Checked { lesson, findings: all, labs, claims, snapshots, listings: Vec::new(), allowed, level }
+    Checked {
+        lesson,
+        findings: all,
+        labs,
+        claims,
+        snapshots,
+        listings: Vec::new(),
+        printed: Vec::new(),
+        allowed,
+        level,
+    }
 }
 
 /// Loads the model of a lab, binds its programs, and checks their behaviour according to `level`.

@@ -62,6 +62,14 @@ impl Listing<'_> {
         (is_plain && Path::new(path).components().all(is_inside)).then_some(path)
     }
 
+    /// The text of the displayed output; `None` for a table.
+    pub fn displayed_text(&self) -> Option<&str> {
+        match &self.output {
+            DisplayedOutput::Block(block, _) => Some(&block.body.value),
+            DisplayedOutput::Table(_) => None,
+        }
+    }
+
     /// The bytes of the displayed output.
     pub fn span(&self) -> Range<usize> {
         match &self.output {

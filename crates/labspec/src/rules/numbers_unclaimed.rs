@@ -40,37 +40,76 @@ pub(crate) fn check_unclaimed_numbers(
     findings: &mut Vec<Finding>,
 ) {
     // If nothing can be claimed, nothing is missing. Very long lessons are not searched.
-    let nothing = lesson.labs.is_empty() && lesson.verifies().next().is_none();
-    if nothing || lesson.file.text().len() > MAX_LESSON {
+    if has_no_claims(lesson) || lesson.file.text().len() > MAX_LESSON {
         return;
     }
     let counted = counted(lesson);
-    let mut reported = suggest_quotes(lesson, &counted, findings);
+    let reported = report_related(lesson, &counted, verified, findings);
+    report_left(lesson, counted, &reported, &[], findings);
+}
+
+/// Reports the numbers of the text again. Those of the displayed outputs of listings are not counted, and the others that such
+/// outputs have (`printed`) count as claimed.
+pub(crate) fn report_again(
+    lesson: &Lesson,
+    verified: &[Range<usize>],
+    [displayed, printed]: [&[Range<usize>]; 2],
+    findings: &mut Vec<Finding>,
+) {
+    let is_unclaimed = |f: &Finding| f.code == NUMBERS_UNCLAIMED.code;
+    // What was removed as a consequence of another finding is not reported again.
+    if !findings.iter().any(is_unclaimed) && !has_no_claims(lesson) || lesson.file.text().len() > MAX_LESSON {
+        return;
+    }
+    findings.retain(|f| !is_unclaimed(f));
+    let mut counted = counted(lesson);
+    counted.left.retain(|s| !displayed.contains(&s.span));
+    // These findings exist already.
+    let mut existing = findings.clone();
+    existing.retain(|f| f.code != super::EXPLANATION_UNCLAIMED.code);
+    let reported = report_related(lesson, &counted, verified, &mut existing);
+    report_left(lesson, counted, &reported, printed, findings);
+}
+
+/// Whether the lesson has neither labs nor `verify` objects.
+fn has_no_claims(lesson: &Lesson) -> bool {
+    lesson.labs.is_empty() && lesson.verifies().next().is_none()
+}
+
+/// Adds suggestions to findings about quotes, and reports the numbers of explanations. Returns the numbers of both.
+fn report_related(
+    lesson: &Lesson,
+    counted: &Counted,
+    verified: &[Range<usize>],
+    findings: &mut Vec<Finding>,
+) -> Vec<Stated> {
+    let mut reported = suggest_quotes(lesson, counted, findings);
     let unquoted = Counted {
         left: counted.left.iter().filter(|s| !is_among(s, &reported)).cloned().collect(),
         ..counted.clone()
     };
     reported.extend(check_explanations(lesson, &unquoted, verified, findings));
+    reported
+}
+
+/// Reports the numbers that neither a claim nor an output has, without those in `reported`.
+fn report_left(
+    lesson: &Lesson,
+    counted: Counted,
+    reported: &[Stated],
+    printed: &[Range<usize>],
+    findings: &mut Vec<Finding>,
+) {
     let count = counted.count();
     let Counted { claimed, mut left, others } = counted;
-    left.retain(|s| !is_among(s, &reported));
+    left.retain(|s| !is_among(s, reported) && !printed.contains(&s.span));
     // A lesson that claims nearly every number claims those of options, too.
     let options: Vec<Stated> = others.into_iter().filter(|s| !s.answer && !s.bound).collect();
     let all = count + options.len();
-    if claimed.len() >= MIN_CLAIMS && (left.len() + options.len()) * SHARE <= all {
+    if claimed.len() + printed.len() >= MIN_CLAIMS && (left.len() + options.len()) * SHARE <= all {
         left.extend(options);
         left.sort_by_key(|s| s.span.start);
-        for s in left {
-            let others = all - 1;
-            let message = format!(
-                "no `verify` quotes {}, although nearly all of the other {others} numbers are quoted",
-                s.quote
-            );
-            findings.push(
-                Finding::new(NUMBERS_UNCLAIMED, s.span.clone(), message)
-                    .help("quote it under `says`, or restore the earlier claim"),
-            );
-        }
+        findings.extend(left.iter().map(|s| exception(s, all - 1, printed)));
         return;
     }
     // A claim that does not find its text may be about these numbers.
@@ -81,14 +120,37 @@ pub(crate) fn check_unclaimed_numbers(
     let in_text: Vec<&Stated> = left.iter().filter(|s| is_text(lesson, s)).collect();
     if let Some(first) = in_text.first().filter(|_| in_text.len() >= FEWEST && !lesson.labs.is_empty()) {
         let (some, all) = (claimed.len(), count);
-        let message = format!(
-            "the lesson has {all} numbers with units and `verify` quotes {some} of them; this is the first one that it does not quote"
-        );
+        let message = match printed.len() {
+            0 => format!(
+                "the lesson has {all} numbers with units and `verify` quotes {some} of them; this is the first one that it does not quote"
+            ),
+            n => format!(
+                "the lesson has {all} numbers with units; `verify` quotes {some} of them, and outputs of listings have {n}; this is the first of the others"
+            ),
+        };
         findings.push(
             Finding::new(NUMBERS_UNCLAIMED, first.span.clone(), message)
                 .help("quote numbers that come from a run under `says` of a `verify`; `labspec trace` finds their origin"),
         );
     }
+}
+
+/// The finding about a number without a claim among many with one.
+fn exception(s: &Stated, others: usize, printed: &[Range<usize>]) -> Finding {
+    let quote = &s.quote;
+    let (message, help) = match printed.is_empty() {
+        true => (
+            format!("no `verify` quotes {quote}, although nearly all of the other {others} numbers are quoted"),
+            "quote it under `says`, or restore the earlier claim",
+        ),
+        false => (
+            format!(
+                "no `verify` quotes {quote} and no output of a listing has it, unlike nearly all of the other {others} numbers"
+            ),
+            "write the number of the output, or quote it under `says`",
+        ),
+    };
+    Finding::new(NUMBERS_UNCLAIMED, s.span.clone(), message).help(help)
 }
 
 fn is_among(s: &Stated, list: &[Stated]) -> bool {

@@ -14,7 +14,9 @@ pub(super) struct NumberCoverage {
 impl NumberCoverage {
     pub(super) fn measure(c: &Checked) -> NumberCoverage {
         let counted = verify::counted(&c.lesson);
-        NumberCoverage { claimed: counted.claimed.len(), unclaimed: counted.left }
+        let is_printed = |s: &Stated| c.printed.iter().any(|number| number.span == s.span);
+        let (printed, unclaimed): (Vec<Stated>, Vec<Stated>) = counted.left.into_iter().partition(is_printed);
+        NumberCoverage { claimed: counted.claimed.len() + printed.len(), unclaimed }
     }
 
     /// Number of all.
