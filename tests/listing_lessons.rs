@@ -3,7 +3,7 @@
 //! A copy of a lesson has one changed digit. All copies are checked in one run of the program, which runs each distinct listing
 //! once: a displayed output is not part of the key of a result. All 900 copies take 4 s.
 
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::panic)]
 
 use crate::needs::{is_available, needs};
 use crate::program::program;
@@ -124,7 +124,7 @@ fn every_changed_digit_of_an_output_is_found_at_its_place() {
     }
     let (code, report) = check(folder.path());
     assert_eq!(code, 1);
-    let mut missed: BTreeSet<&str> = changes.keys().map(String::as_str).collect();
+    let mut undetected: BTreeSet<&str> = changes.keys().map(String::as_str).collect();
     let findings = report["findings"].as_array().unwrap();
     for finding in findings {
         let file = finding["file"].as_str().unwrap().trim_start_matches("./");
@@ -134,9 +134,9 @@ fn every_changed_digit_of_an_output_is_found_at_its_place() {
         assert!((start..end).contains(at), "{file}: the change is at {at}: {finding}");
         assert!(!marked.contains(char::is_whitespace), "{file}: `{marked}` is more than a word");
         assert_eq!(finding["code"], "listing-output", "{finding}");
-        assert!(missed.remove(file), "{file} has two findings: {finding}");
+        assert!(undetected.remove(file), "{file} has two findings: {finding}");
     }
-    assert!(missed.is_empty(), "changes without a finding: {missed:?}");
+    assert!(undetected.is_empty(), "changes without a finding: {undetected:?}");
     assert_eq!(report["summary"]["claims"]["listing"]["false"], findings.len());
 }
 

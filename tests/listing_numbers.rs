@@ -1,6 +1,6 @@
 //! `labspec check --listings`: numbers of the text that the output of a listing has.
 
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::panic)]
 
 use crate::needs::{is_available, needs};
 use crate::program::run_in;

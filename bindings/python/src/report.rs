@@ -89,6 +89,7 @@ pub(crate) fn check<'py>(
 pub(crate) fn listings(path: &str, text: &str) -> Vec<(String, usize, usize)> {
     let lesson = read_lesson(SourceFile::new(path, text));
     let line = |offset: usize| lesson.file.position(offset).line;
-    let describe = |listing: &Listing<'_>| (listing.name(), line(listing.info.start), line(listing.span().end));
+    let describe =
+        |listing: &Listing<'_>| (listing.name(), line(listing.info.start), line(listing.span().end));
     pair_listings(&lesson).iter().map(describe).collect()
 }

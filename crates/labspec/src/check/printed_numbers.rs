@@ -5,7 +5,7 @@ use crate::ledger::State;
 use crate::listings::{ListingResult, pair_listings};
 use crate::rules::numbers_unclaimed::report_again;
 use crate::spec::Lesson;
-use crate::verify::{OutputMatch, ShownOutput, numbers_in_outputs};
+use crate::verify::{OutputBlock, OutputMatch, numbers_in_outputs};
 use std::ops::Range;
 
 /// A number of the text that an output has.
@@ -33,9 +33,9 @@ pub fn claim_printed_numbers(
         results.iter().any(|result| result.name == name && matches!(result.state, State::True(_)))
     };
     let printed: Vec<_> = listings.iter().filter(|listing| is_printed(&listing.name())).collect();
-    let outputs: Vec<ShownOutput<'_>> = printed
+    let outputs: Vec<OutputBlock<'_>> = printed
         .iter()
-        .map(|listing| ShownOutput { span: listing.span(), text: listing.displayed_text() })
+        .map(|listing| OutputBlock { span: listing.span(), text: listing.displayed_text() })
         .collect();
     let describe = |found: OutputMatch| {
         let OutputMatch { output, number, is_displayed } = found;

@@ -140,7 +140,9 @@ fn exception(s: &Stated, others: usize, printed: &[Range<usize>]) -> Finding {
     let quote = &s.quote;
     let (message, help) = match printed.is_empty() {
         true => (
-            format!("no `verify` quotes {quote}, although nearly all of the other {others} numbers are quoted"),
+            format!(
+                "no `verify` quotes {quote}, although nearly all of the other {others} numbers are quoted"
+            ),
             "quote it under `says`, or restore the earlier claim",
         ),
         false => (

@@ -86,8 +86,8 @@ pub use numerics::PERTURBED_START;
 pub use options::UNDECIDED;
 pub use outcomes::measure_only_run;
 pub use quote::{
-    Counted, NumberForm, OtherValue, OutputMatch, QuoteOutcome, QuoteState, Quoted, RenderedText,
-    ShownOutput, Stated, Style, Unread, answered, claimed, counted, folded, numbers_in_outputs, plain,
+    Counted, NumberForm, OtherValue, OutputBlock, OutputMatch, QuoteOutcome, QuoteState, Quoted,
+    RenderedText, Stated, Style, Unread, answered, claimed, counted, folded, numbers_in_outputs, plain,
     quoted, stated,
 };
 pub use quote_checker::Quote;

@@ -35,7 +35,7 @@ pub(super) use check_quote::{check_quote, places_of_quote};
 pub(super) use markdown_cell::unit_of_head;
 pub use number::{NumberForm, Quoted, Style};
 pub(super) use option_text::{OptionNumber, option_ratio, option_text};
-pub use printed::{OutputMatch, ShownOutput, numbers_in_outputs};
+pub use printed::{OutputBlock, OutputMatch, numbers_in_outputs};
 pub use quote_claim::{OtherValue, QuoteOutcome, QuoteState};
 pub(super) use quote_claim::{QuoteClaim, QuotePlace, QuoteValue};
 pub(super) use read::{QuotePart, parts, read_quote_in, whole};

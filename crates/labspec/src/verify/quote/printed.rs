@@ -16,7 +16,7 @@ use std::ops::Range;
 
 /// A displayed output.
 #[derive(Clone, Debug)]
-pub struct ShownOutput<'l> {
+pub struct OutputBlock<'l> {
     /// Its bytes in the file.
     pub span: Range<usize>,
     /// Its text, or `None` for a table, whose cells are numbers of the lesson.
@@ -53,7 +53,7 @@ const MAX_LESSON: usize = 2 << 20;
 const MIN_DIGITS: [usize; 2] = [2, 3];
 
 /// The unclaimed numbers of the text, outside of labs and quizzes, that one of the outputs has.
-pub fn numbers_in_outputs(lesson: &Lesson, outputs: &[ShownOutput<'_>]) -> Vec<OutputMatch> {
+pub fn numbers_in_outputs(lesson: &Lesson, outputs: &[OutputBlock<'_>]) -> Vec<OutputMatch> {
     if outputs.is_empty() || lesson.file.text().len() > MAX_LESSON {
         return Vec::new();
     }
@@ -63,11 +63,11 @@ pub fn numbers_in_outputs(lesson: &Lesson, outputs: &[ShownOutput<'_>]) -> Vec<O
     let stated: Vec<Stated> = counted(lesson).left.into_iter().filter(is_text).collect();
     let cell_of = |s: &Stated| outputs.iter().position(|output| contains(&output.span, &s.span));
     let mut printed: Vec<OutputNumber> = Vec::new();
-    for (output, shown) in outputs.iter().enumerate() {
-        match shown.text {
+    for (output, block) in outputs.iter().enumerate() {
+        match block.text {
             Some(text) => add_numbers(output, text, &mut printed),
             None => printed.extend(
-                stated.iter().filter(|s| contains(&shown.span, &s.span)).map(|s| OutputNumber {
+                stated.iter().filter(|s| contains(&block.span, &s.span)).map(|s| OutputNumber {
                     output,
                     quoted: s.read,
                     dimension: Some(s.dimension),
@@ -182,7 +182,7 @@ mod tests {
     /// The numbers of a text that an output has.
     fn claimed_by(output: &str, text: &str) -> Vec<String> {
         let lesson = read_lesson(SourceFile::new("a.md", text));
-        let outputs = [ShownOutput { span: text.len()..text.len(), text: Some(output) }];
+        let outputs = [OutputBlock { span: text.len()..text.len(), text: Some(output) }];
         numbers_in_outputs(&lesson, &outputs).into_iter().map(|m| m.number.quote).collect()
     }
 
@@ -230,7 +230,7 @@ mod tests {
     fn the_cells_of_a_displayed_table_are_claimed_with_their_unit() {
         let text = "It is 1.47 mm, not 2.95 mm or 1.47 s.\n\n| h (s) | error (mm) |\n|---|---|\n| 0.001 | 1.4715 |\n| 0.002 | 2.9430 |\n";
         let lesson = read_lesson(SourceFile::new("a.md", text));
-        let outputs = [ShownOutput { span: text.find('|').unwrap()..text.len(), text: None }];
+        let outputs = [OutputBlock { span: text.find('|').unwrap()..text.len(), text: None }];
         let found: Vec<String> =
             numbers_in_outputs(&lesson, &outputs).into_iter().map(|m| m.number.quote).collect();
         assert_eq!(found, ["1.47 mm", "0.001", "1.4715", "0.002", "2.9430"]);
