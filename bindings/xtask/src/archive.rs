@@ -237,10 +237,10 @@ fn try_processors(unpacked: &Path, program: &Path, lessons: &Path) -> Result<(),
     if std::arch::is_x86_feature_detected!("avx2") {
         has_instructions(&output(program, &["--version"])?, "AVX2")?;
     }
-    let (faster, aside) = (unpacked.join(faster), unpacked.join("aside"));
-    fs::rename(&faster, &aside).map_err(|e| format!("{}: {e}", faster.display()))?;
+    let (faster, hidden) = (unpacked.join(faster), unpacked.join("hidden"));
+    fs::rename(&faster, &hidden).map_err(|e| format!("{}: {e}", faster.display()))?;
     has_instructions(&output(program, &["--version"])?, "SSE2")?;
-    fs::rename(&aside, &faster).map_err(|e| format!("{}: {e}", faster.display()))?;
+    fs::rename(&hidden, &faster).map_err(|e| format!("{}: {e}", faster.display()))?;
     let emulator = Path::new("qemu-x86_64");
     if Command::new(emulator).arg("--version").output().is_err() {
         eprintln!("xtask: qemu-x86_64 is not installed, so the program is not tried on an old processor");
