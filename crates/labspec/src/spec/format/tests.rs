@@ -235,7 +235,7 @@ fn every_other_example_runs() {
 /// Runs the examples of every second key, from the one with this index on.
 fn run_examples(first: usize) {
     let mut wrong = Vec::new();
-    for (object, key) in every_key().into_iter().skip(first).step_by(2) {
+    for (object, key) in every_key().skip(first).step_by(2) {
         let whole = with_its_kind(object, key);
         let all = roots(object, &whole);
         let found: Vec<Vec<Finding>> = all.iter().map(|(root, value)| checked(root, value)).collect();
