@@ -120,8 +120,11 @@ def test_a_lab_with_errors_has_no_reports():
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")
 def test_ctrl_c_ends_long_work():
+    # A shell may start the tests in the background, where it ignores the signal, and children inherit that.
     code = f"""
+import signal
 import labspec
+signal.signal(signal.SIGINT, signal.default_int_handler)
 lab = labspec.Lab({f"{LESSON}#3"!r})
 print("started", flush=True)
 lab.stability(until=1e4, margins=True)
