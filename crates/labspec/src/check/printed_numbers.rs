@@ -6,6 +6,7 @@ use crate::listings::{ListingResult, pair_listings};
 use crate::rules::numbers_unclaimed::report_again;
 use crate::spec::Lesson;
 use crate::verify::{OutputBlock, OutputMatch, numbers_in_outputs};
+use std::collections::HashSet;
 use std::ops::Range;
 
 /// A number of the text that an output has.
@@ -45,7 +46,7 @@ pub fn claim_printed_numbers(
     let numbers: Vec<PrintedNumber> =
         numbers_in_outputs(lesson, &outputs).into_iter().filter_map(describe).collect();
     if !numbers.is_empty() {
-        let spans = |is_displayed: bool| -> Vec<Range<usize>> {
+        let spans = |is_displayed: bool| -> HashSet<Range<usize>> {
             let chosen = numbers.iter().filter(|number| number.is_displayed == is_displayed);
             chosen.map(|number| number.span.clone()).collect()
         };

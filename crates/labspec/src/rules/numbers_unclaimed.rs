@@ -5,6 +5,7 @@ use crate::json::encode;
 use crate::spec::Lesson;
 use crate::verify::{Counted, Stated, counted, quoted};
 use labspec_finding::{Example, Finding, Layer, Rule, Severity};
+use std::collections::HashSet;
 use std::ops::Range;
 
 /// The lesson states numbers with units that no `verify` quotes.
@@ -45,7 +46,7 @@ pub(crate) fn check_unclaimed_numbers(
     }
     let counted = counted(lesson);
     let reported = report_related(lesson, &counted, verified, findings);
-    report_left(lesson, counted, &reported, &[], findings);
+    report_left(lesson, counted, &reported, &HashSet::new(), findings);
 }
 
 /// Reports the numbers of the text again. Those of the displayed outputs of listings are not counted, and the others that such
@@ -53,7 +54,7 @@ pub(crate) fn check_unclaimed_numbers(
 pub(crate) fn report_again(
     lesson: &Lesson,
     verified: &[Range<usize>],
-    [displayed, printed]: [&[Range<usize>]; 2],
+    [displayed, printed]: [&HashSet<Range<usize>>; 2],
     findings: &mut Vec<Finding>,
 ) {
     let is_unclaimed = |f: &Finding| f.code == NUMBERS_UNCLAIMED.code;
@@ -97,7 +98,7 @@ fn report_left(
     lesson: &Lesson,
     counted: Counted,
     reported: &[Stated],
-    printed: &[Range<usize>],
+    printed: &HashSet<Range<usize>>,
     findings: &mut Vec<Finding>,
 ) {
     let count = counted.count();
@@ -136,7 +137,7 @@ fn report_left(
 }
 
 /// The finding about a number without a claim among many with one.
-fn exception(s: &Stated, others: usize, printed: &[Range<usize>]) -> Finding {
+fn exception(s: &Stated, others: usize, printed: &HashSet<Range<usize>>) -> Finding {
     let quote = &s.quote;
     let (message, help) = match printed.is_empty() {
         true => (
@@ -149,7 +150,7 @@ fn exception(s: &Stated, others: usize, printed: &[Range<usize>]) -> Finding {
             format!(
                 "no `verify` quotes {quote} and no output of a listing has it, unlike nearly all of the other {others} numbers"
             ),
-            "write the number of the output, or quote it under `says`",
+            "correct it to the printed number, or quote it under `says`",
         ),
     };
     Finding::new(NUMBERS_UNCLAIMED, s.span.clone(), message).help(help)

@@ -2,6 +2,8 @@
 
 use crate::check::Checked;
 use crate::verify::{self, Stated};
+use std::collections::HashSet;
+use std::ops::Range;
 
 /// The numbers with units of a lesson.
 pub(super) struct NumberCoverage {
@@ -14,7 +16,8 @@ pub(super) struct NumberCoverage {
 impl NumberCoverage {
     pub(super) fn measure(c: &Checked) -> NumberCoverage {
         let counted = verify::counted(&c.lesson);
-        let is_printed = |s: &Stated| c.printed.iter().any(|number| number.span == s.span);
+        let spans: HashSet<&Range<usize>> = c.printed.iter().map(|number| &number.span).collect();
+        let is_printed = |s: &Stated| spans.contains(&s.span);
         let (printed, unclaimed): (Vec<Stated>, Vec<Stated>) = counted.left.into_iter().partition(is_printed);
         NumberCoverage { claimed: counted.claimed.len() + printed.len(), unclaimed }
     }
