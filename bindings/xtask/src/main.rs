@@ -4,7 +4,8 @@
 //! JavaScript and its TypeScript types: the player, and the checker, which contains the player. They are written to
 //! `web/labspec/generated`, where the npm package reads them, and the checker to FOLDER (`bindings/wasm/pkg`), in `node/` and
 //! `web/`. If the package `binaryen` is installed in `web/`, its `wasm-opt` reduces the size of the modules. If rustup is
-//! installed, the compilation target is added if necessary. `LABSPEC_PROFILE=quick` builds slow and large modules in a minute.
+//! installed, the compilation target is added if necessary. `LABSPEC_PROFILE=quick` builds slow and large modules in a minute,
+//! `LABSPEC_MODULE=player` only that module, and `LABSPEC_NAMES=1` keeps the names of functions, for profilers.
 //!
 //! `… -- release [FOLDER]` builds the program for this machine and packs it with its licences, manual pages, completions and the
 //! scripts of pages into `labspec-VERSION-TARGET.tar.gz`, next to a file with its SHA-256, in FOLDER (`target/release-archives`). The
@@ -71,6 +72,11 @@ const FEATURES: [&str; 7] = [
 /// loads and stores.
 const OPTIONS: [&str; 3] = ["-O3", "--low-memory-unused", "--one-caller-inline-max-function-size=200"];
 
+/// Whether the modules keep the names of functions: `LABSPEC_NAMES`.
+fn keeps_names() -> bool {
+    std::env::var_os("LABSPEC_NAMES").is_some()
+}
+
 fn build(folder: Option<PathBuf>) -> Result<PathBuf, String> {
     let crates = Path::new(env!("CARGO_MANIFEST_DIR")).with_file_name("wasm");
     let web = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../web");
@@ -79,7 +85,11 @@ fn build(folder: Option<PathBuf>) -> Result<PathBuf, String> {
     // Without rustup, the target may be installed in another way; otherwise the build reports that it is missing.
     let _ = Command::new("rustup").args(["target", "add", TARGET]).output();
     let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| crates.join("target"), PathBuf::from);
+    let only = std::env::var("LABSPEC_MODULE").ok();
     for (name, features, others) in MODULES {
+        if only.as_deref().is_some_and(|only| only != name) {
+            continue;
+        }
         let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
         cargo.args(["build", "--profile", &profile, "--quiet", "--locked", "--target", TARGET]);
         let built = cargo.args(features).current_dir(&crates).status();
@@ -136,7 +146,8 @@ fn optimize(web: &Path, module: &Path) -> Result<(), String> {
     if !program.exists() {
         return Ok(());
     }
-    let done = Command::new(program).args(OPTIONS).args(FEATURES).arg(module).arg("-o").arg(module).status();
+    let names = keeps_names().then_some("-g");
+    let done = Command::new(program).args(names).args(OPTIONS).args(FEATURES).arg(module).arg("-o").arg(module).status();
     match done.map_err(|e| format!("cannot run wasm-opt: {e}"))?.success() {
         true => Ok(()),
         false => Err(format!("wasm-opt refuses {}", module.display())),

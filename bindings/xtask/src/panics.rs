@@ -116,7 +116,7 @@ fn clear_places(module: &mut Module, stopping: &HashSet<FunctionId>) {
 pub(crate) fn to_traps(file: &Path) -> Result<usize, String> {
     let error = |e: &dyn std::fmt::Display| format!("{}: {e:#}", file.display());
     let mut config = ModuleConfig::new();
-    config.generate_name_section(false).generate_producers_section(false);
+    config.generate_name_section(crate::keeps_names()).generate_producers_section(false);
     let mut module = config.parse_file(file).map_err(|e| error(&e))?;
     let stopping: Vec<_> = module
         .funcs

@@ -24,7 +24,10 @@ pub use place::{EditorPosition, Lines, Place, Position, Span, floor};
 pub use rule::{Layer, Rule};
 pub use severity::Severity;
 
+/// Whether this build has the descriptions of tables for authors: the feature `descriptions`.
+pub const DESCRIBED: bool = cfg!(feature = "descriptions");
+
 /// A description for authors. Empty in a build without the feature `descriptions`.
 pub const fn docs(text: &'static str) -> &'static str {
-    if cfg!(feature = "descriptions") { text } else { "" }
+    if DESCRIBED { text } else { "" }
 }

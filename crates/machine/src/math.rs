@@ -1,6 +1,8 @@
 //! The `Math` object and the global number functions, as ECMAScript defines them ("Function Properties of the
 //! Math Object"). Transcendental functions come from `libm`, so that every platform gives the same bits.
 
+use labspec_finding::DESCRIBED;
+
 /// The maximum number of arguments of a function in a formula.
 pub const FEW: usize = 16;
 
@@ -177,8 +179,11 @@ impl MathFunction {
         self.row().name
     }
 
-    /// The documentation of its result.
+    /// The documentation of its result, empty in a build without descriptions ([`labspec_finding::docs`]).
     pub fn doc(self) -> &'static str {
+        if !DESCRIBED {
+            return "";
+        }
         DOCS.iter().find(|(name, ..)| *name == self.row().name).map_or("", |(_, doc, _)| doc)
     }
 

@@ -5,6 +5,7 @@ use super::{AccessedPart, Arg, Function, ROW, Unit, index, number};
 use labspec_core::reflect::data;
 use labspec_core::{self as core, Obj};
 use labspec_expr::{Heap, Type, Value};
+use labspec_finding::docs;
 use labspec_finding::order;
 use nalgebra::{DMatrix, SVD, SymmetricEigen};
 
@@ -20,8 +21,8 @@ pub(super) const ROWS: &[Function] = &[
         name: "bodyId",
         args: &[Arg::Name(Obj::Body)],
         unit: Unit::Of("1"),
-        doc: "index of a body",
-        example: ("lib.bodyId('bob')", "1"),
+        doc: docs("index of a body"),
+        example: (docs("lib.bodyId('bob')"), docs("1")),
         run: |_, _, args| index(args).map(|i| Value::Number(i as f64)),
         ..ROW
     },
@@ -30,8 +31,8 @@ pub(super) const ROWS: &[Function] = &[
         name: "jointId",
         args: &[Arg::Name(Obj::Joint)],
         unit: Unit::Of("1"),
-        doc: "index of a joint",
-        example: ("lib.jointId('swing')", "0"),
+        doc: docs("index of a joint"),
+        example: (docs("lib.jointId('swing')"), docs("0")),
         run: |_, _, args| index(args).map(|i| Value::Number(i as f64)),
         ..ROW
     },
@@ -40,8 +41,8 @@ pub(super) const ROWS: &[Function] = &[
         name: "qpos",
         args: &[Arg::Name(Obj::Joint)],
         reads: AccessedPart::State,
-        doc: "first coordinate of a joint",
-        example: ("data.qpos[0] = 0.1; lib.qpos('swing')", "0.1"),
+        doc: docs("first coordinate of a joint"),
+        example: (docs("data.qpos[0] = 0.1; lib.qpos('swing')"), docs("0.1")),
         run: |w, _, args| {
             let x = w.qpos_of(index(args)?);
             Ok(x.map_or(Value::Undefined, Value::Number))
@@ -55,8 +56,8 @@ pub(super) const ROWS: &[Function] = &[
         optional: 1,
         reads: AccessedPart::Contacts,
         unit: Unit::Of("N"),
-        doc: "normal force in N, summed over all contacts or over those of one geom",
-        example: ("lib.normalForce()", "0"),
+        doc: docs("normal force in N, summed over all contacts or over those of one geom"),
+        example: (docs("lib.normalForce()"), docs("0")),
         run: |w, _, args| {
             let geom = if args.is_empty() { None } else { Some(index(args)?) };
             let touching = |c: &&core::Contact| geom.is_none_or(|g| c.geom1 == g || c.geom2 == g);
@@ -74,8 +75,8 @@ pub(super) const ROWS: &[Function] = &[
         name: "deg",
         args: &[Arg::Angle],
         unit: Unit::Argument(180.0 / std::f64::consts::PI),
-        doc: "radians to degrees",
-        example: ("lib.deg(Math.PI)", "180"),
+        doc: docs("radians to degrees"),
+        example: (docs("lib.deg(Math.PI)"), docs("180")),
         run: |_, _, args| number(args).map(|x| Value::Number(x * 180.0 / std::f64::consts::PI)),
         ..ROW
     },
@@ -84,8 +85,8 @@ pub(super) const ROWS: &[Function] = &[
         name: "rad",
         args: &[Arg::Number],
         unit: Unit::Argument(std::f64::consts::PI / 180.0),
-        doc: "degrees to radians",
-        example: ("lib.rad(180)", "3.141592653589793"),
+        doc: docs("degrees to radians"),
+        example: (docs("lib.rad(180)"), docs("3.141592653589793")),
         run: |_, _, args| number(args).map(|x| Value::Number(x * std::f64::consts::PI / 180.0)),
         ..ROW
     },
@@ -96,8 +97,8 @@ pub(super) const ROWS: &[Function] = &[
         gives: Some((data::site_xpos, Obj::Site)),
         reads: AccessedPart::Places,
         unit: Unit::Of("m"),
-        doc: "world position of a site, m",
-        example: ("lib.sitePos('tip')[2]", "0.5"),
+        doc: docs("world position of a site, m"),
+        example: (docs("lib.sitePos('tip')[2]"), docs("0.5")),
         run: |w, heap, args| place(heap, &w.fields().site_xpos, index(args)?),
         ..LIST
     },
@@ -108,8 +109,8 @@ pub(super) const ROWS: &[Function] = &[
         gives: Some((data::xpos, Obj::Body)),
         reads: AccessedPart::Places,
         unit: Unit::Of("m"),
-        doc: "world position of a body, m",
-        example: ("lib.bodyPos('bob')[2]", "1"),
+        doc: docs("world position of a body, m"),
+        example: (docs("lib.bodyPos('bob')[2]"), docs("1")),
         run: |w, heap, args| place(heap, &w.fields().xpos, index(args)?),
         ..LIST
     },
@@ -121,16 +122,16 @@ pub(super) const ROWS: &[Function] = &[
         reads: AccessedPart::Energy,
         writes: &[AccessedPart::Flags, AccessedPart::Derived],
         unit: Unit::Of("J"),
-        doc: "potential, kinetic and total energy, J; the first use turns the energy computation on",
-        example: ("lib.energy().total", "4.905"),
+        doc: docs("potential, kinetic and total energy, J; the first use turns the energy computation on"),
+        example: (docs("lib.energy().total"), docs("4.905")),
         run: |w, heap, _| energy(w, heap),
         ..ROW
     },
     Function {
         name: "contactPairs",
         reads: AccessedPart::Contacts,
-        doc: "pairs of geoms in contact, each as text; a geom without a name is shown by its body",
-        example: ("lib.contactPairs().length", "0"),
+        doc: docs("pairs of geoms in contact, each as text; a geom without a name is shown by its body"),
+        example: (docs("lib.contactPairs().length"), docs("0")),
         run: |w, heap, _| {
             let pairs = w
                 .contacts()
@@ -147,8 +148,10 @@ pub(super) const ROWS: &[Function] = &[
         optional: 1,
         length: Some(6),
         reads: AccessedPart::Motion,
-        doc: "Jacobian of a site: three rows of linear and three of angular velocity per degree of freedom; the second argument keeps only the first columns",
-        example: ("lib.jacobian('tip')[0][0]", "-0.5"),
+        doc: docs(
+            "Jacobian of a site: three rows of linear and three of angular velocity per degree of freedom; the second argument keeps only the first columns",
+        ),
+        example: (docs("lib.jacobian('tip')[0][0]"), docs("-0.5")),
         run: |w, heap, args| {
             let rows = jacobian(w, index(args)?, args.get(1).map(Value::to_number))?;
             matrix(heap, &rows)
@@ -160,8 +163,10 @@ pub(super) const ROWS: &[Function] = &[
         args: &[Arg::Name(Obj::Site), Arg::Any],
         optional: 1,
         reads: AccessedPart::Motion,
-        doc: "singular values of the Jacobian of a site, largest first; the second argument is {cols, rows: \"full\" or \"pos\"}",
-        example: ("lib.jacobianSV('tip', {rows: 'pos'})[0]", "0.5"),
+        doc: docs(
+            "singular values of the Jacobian of a site, largest first; the second argument is {cols, rows: \"full\" or \"pos\"}",
+        ),
+        example: (docs("lib.jacobianSV('tip', {rows: 'pos'})[0]"), docs("0.5")),
         run: |w, heap, args| {
             let option = |key| args.get(1).and_then(|o| heap.get(o, key)).filter(|v| !v.is_nothing());
             let only = option("rows").is_some_and(|v| v.to_string() == "pos");
@@ -177,8 +182,8 @@ pub(super) const ROWS: &[Function] = &[
         name: "massMatrix",
         reads: AccessedPart::Mass,
         writes: &[AccessedPart::Derived],
-        doc: "the mass matrix, nv rows of nv numbers; computes all derived fields first",
-        example: ("lib.massMatrix()[0][0].toFixed(5)", "0.25036"),
+        doc: docs("the mass matrix, nv rows of nv numbers; computes all derived fields first"),
+        example: (docs("lib.massMatrix()[0][0].toFixed(5)"), docs("0.25036")),
         run: |w, heap, _| {
             w.forward()?;
             let m = w.full_m()?;
@@ -192,8 +197,8 @@ pub(super) const ROWS: &[Function] = &[
         name: "norm",
         args: &[Arg::Numbers],
         unit: Unit::Argument(1.0),
-        doc: "length of a vector: the root of the sum of its squares",
-        example: ("lib.norm([3, 4])", "5"),
+        doc: docs("length of a vector: the root of the sum of its squares"),
+        example: (docs("lib.norm([3, 4])"), docs("5")),
         run: |_, heap, args| {
             let numbers = args.first().and_then(|v| heap.to_numbers(v)).unwrap_or_default();
             Ok(Value::Number(labspec_expr::hypot(&numbers)))

@@ -6,6 +6,7 @@ use super::{AccessedPart, Arg, Function, FunctionPlace, ROW, Unit, index, number
 use crate::handle;
 use labspec_core::{self as core, Obj};
 use labspec_expr::{Heap, Type, Value};
+use labspec_finding::docs;
 use nalgebra::DMatrix;
 
 /// The members of the result of `mixed`.
@@ -89,8 +90,8 @@ pub(super) const ROWS: &[Function] = &[
         returns: Type::Boolean,
         reads: AccessedPart::Contacts,
         place: FunctionPlace::Measures,
-        doc: "whether two geoms are in contact, or whether one geom is in any contact",
-        example: ("max(contact('bob'))", "0"),
+        doc: docs("whether two geoms are in contact, or whether one geom is in any contact"),
+        example: (docs("max(contact('bob'))"), docs("0")),
         run: |w, _, args| {
             let (a, b) = (index(args)?, args.get(1).map(|v| handle::index_of(v.to_number())));
             let touch = |c: &core::Contact| {
@@ -108,8 +109,10 @@ pub(super) const ROWS: &[Function] = &[
         members: CONTACT,
         reads: AccessedPart::Contacts,
         place: FunctionPlace::Measures,
-        doc: "the deepest contact of two geoms, as the engine mixes it from both: dim, friction (5 numbers), solref (2), solimp (5), margin (m), dist (m), pos (3, m), frame (9), active (1 if it pushes) and force (6, N and N m); NaN everywhere without a contact",
-        example: ("final(mixed('bob', 'bob').dim)", "NaN"),
+        doc: docs(
+            "the deepest contact of two geoms, as the engine mixes it from both: dim, friction (5 numbers), solref (2), solimp (5), margin (m), dist (m), pos (3, m), frame (9), active (1 if it pushes) and force (6, N and N m); NaN everywhere without a contact",
+        ),
+        example: (docs("final(mixed('bob', 'bob').dim)"), docs("NaN")),
         run: mixed,
         ..ROW
     },
@@ -118,8 +121,10 @@ pub(super) const ROWS: &[Function] = &[
         args: &[Arg::Any],
         returns: Type::List,
         place: FunctionPlace::Measures,
-        doc: "eigenvalues of a symmetric matrix, given as rows or as a flat list row by row; smallest first",
-        example: ("final(eigenvalues([[2, 1], [1, 2]])[1])", "3"),
+        doc: docs(
+            "eigenvalues of a symmetric matrix, given as rows or as a flat list row by row; smallest first",
+        ),
+        example: (docs("final(eigenvalues([[2, 1], [1, 2]])[1])"), docs("3")),
         run: |_, heap, args| {
             let matrix = args.first().and_then(|v| symmetric(heap, v)).ok_or(
                 "`eigenvalues` needs a symmetric matrix: a list of n rows with n numbers each, or of n × n numbers",
@@ -135,8 +140,10 @@ pub(super) const ROWS: &[Function] = &[
         returns: Type::Any,
         reads: AccessedPart::DisplayedLabels,
         place: FunctionPlace::Measures,
-        doc: "the text that a student reads under the label of a readout, or the number of a trace; if both have the label, name the trace as in a table of `labspec run`: `plot/0/label`",
-        example: ("max(shown('time (s)'))", "0.1"),
+        doc: docs(
+            "the text that a student reads under the label of a readout, or the number of a trace; if both have the label, name the trace as in a table of `labspec run`: `plot/0/label`",
+        ),
+        example: (docs("max(shown('time (s)'))"), docs("0.1")),
         run: |w, _, args| Ok(w.displayed_value(index(args)?).cloned().unwrap_or_default()),
         ..ROW
     },
@@ -145,32 +152,34 @@ pub(super) const ROWS: &[Function] = &[
         args: &[Arg::Number],
         place: FunctionPlace::Measures,
         unit: Unit::Argument(1.0),
-        doc: "magnitude",
-        example: ("abs(-2)", "2"),
+        doc: docs("magnitude"),
+        example: (docs("abs(-2)"), docs("2")),
         run: |_, _, args| number(args).map(|x| Value::Number(x.abs())),
         ..ROW
     },
     Function {
         name: "first",
         unit: Unit::Of("s"),
-        doc: "time in s of the first sample where a condition holds; NaN if it never does",
-        example: ("first(data.time > 0.049)", "0.05"),
+        doc: docs("time in s of the first sample where a condition holds; NaN if it never does"),
+        example: (docs("first(data.time > 0.049)"), docs("0.05")),
         ..OVER_RUN
     },
     Function {
         name: "at",
         args: &[Arg::Lazy, Arg::Lazy],
         unit: Unit::Times(1, "1"),
-        doc: "at(condition, x): x at the first sample where the condition holds; NaN if it never does",
-        example: ("at(data.time > 0.049, data.qpos[0])", "0"),
+        doc: docs("at(condition, x): x at the first sample where the condition holds; NaN if it never does"),
+        example: (docs("at(data.time > 0.049, data.qpos[0])"), docs("0")),
         ..OVER_RUN
     },
     Function {
         name: "before",
         args: &[Arg::Lazy, Arg::Lazy],
         unit: Unit::Times(1, "1"),
-        doc: "before(condition, x): x at the sample just before the condition first holds; NaN if there is none",
-        example: ("before(data.time > 0.049, data.time)", "0.048"),
+        doc: docs(
+            "before(condition, x): x at the sample just before the condition first holds; NaN if there is none",
+        ),
+        example: (docs("before(data.time > 0.049, data.time)"), docs("0.048")),
         ..OVER_RUN
     },
     Function {
@@ -178,8 +187,10 @@ pub(super) const ROWS: &[Function] = &[
         args: &[Arg::Lazy, Arg::Lazy],
         optional: 1,
         unit: Unit::Of("s"),
-        doc: "crossing(x) or crossing(x, level): time in s when x first crosses zero, or a level, interpolated linearly between two samples; a sample at the level counts; NaN if it never does",
-        example: ("crossing(0.0495 - data.time)", "0.0495"),
+        doc: docs(
+            "crossing(x) or crossing(x, level): time in s when x first crosses zero, or a level, interpolated linearly between two samples; a sample at the level counts; NaN if it never does",
+        ),
+        example: (docs("crossing(0.0495 - data.time)"), docs("0.0495")),
         ..OVER_RUN
     },
     Function {
@@ -187,22 +198,24 @@ pub(super) const ROWS: &[Function] = &[
         args: &[Arg::Lazy, Arg::Lazy],
         optional: 1,
         unit: Unit::Of("s"),
-        doc: "period(x) or period(x, level): mean time in s between upward crossings of zero, or of a level, each interpolated linearly between two samples; NaN with fewer than two",
-        example: ("period(Math.abs(data.time % 0.04 - 0.02), 0.01)", "0.04"),
+        doc: docs(
+            "period(x) or period(x, level): mean time in s between upward crossings of zero, or of a level, each interpolated linearly between two samples; NaN with fewer than two",
+        ),
+        example: (docs("period(Math.abs(data.time % 0.04 - 0.02), 0.01)"), docs("0.04")),
         ..OVER_RUN
     },
     Function {
         name: "last",
         unit: Unit::Of("s"),
-        doc: "time in s of the last sample where a condition holds; NaN if it never does",
-        example: ("last(data.time < 0.051)", "0.05"),
+        doc: docs("time in s of the last sample where a condition holds; NaN if it never does"),
+        example: (docs("last(data.time < 0.051)"), docs("0.05")),
         ..OVER_RUN
     },
     Function {
         name: "count",
         unit: Unit::Of("1"),
-        doc: "how often a condition begins to hold; holding at the start counts",
-        example: ("count(data.time % 0.04 < 0.019)", "3"),
+        doc: docs("how often a condition begins to hold; holding at the start counts"),
+        example: (docs("count(data.time % 0.04 < 0.019)"), docs("3")),
         ..OVER_RUN
     },
     Function {
@@ -210,93 +223,101 @@ pub(super) const ROWS: &[Function] = &[
         args: &[Arg::Lazy, Arg::Lazy],
         optional: 1,
         unit: Unit::Of("1"),
-        doc: "crossings(x) or crossings(x, level): how often x crosses zero, or a level, upwards or downwards; a touch does not count",
-        example: ("crossings(data.time % 0.04 - 0.019)", "5"),
+        doc: docs(
+            "crossings(x) or crossings(x, level): how often x crosses zero, or a level, upwards or downwards; a touch does not count",
+        ),
+        example: (docs("crossings(data.time % 0.04 - 0.019)"), docs("5")),
         ..OVER_RUN
     },
     Function {
         name: "settles",
         args: &[Arg::Lazy, Arg::Lazy, Arg::Lazy],
         unit: Unit::Of("s"),
-        doc: "settles(x, target, band): time in s from which x stays within a band around its target until the end of the run; NaN if it does not",
-        example: ("settles(data.time, 0.1, 0.0201)", "0.08"),
+        doc: docs(
+            "settles(x, target, band): time in s from which x stays within a band around its target until the end of the run; NaN if it does not",
+        ),
+        example: (docs("settles(data.time, 0.1, 0.0201)"), docs("0.08")),
         ..OVER_RUN
     },
     Function {
         name: "peak",
         unit: Unit::Of("s"),
-        doc: "time in s of the first sample where x is largest; `peak(-x)` is the time of the smallest",
-        example: ("peak(data.time * (0.1 - data.time))", "0.05"),
+        doc: docs("time in s of the first sample where x is largest; `peak(-x)` is the time of the smallest"),
+        example: (docs("peak(data.time * (0.1 - data.time))"), docs("0.05")),
         ..OVER_RUN
     },
     Function {
         name: "holds",
         unit: Unit::Of("1"),
-        doc: "1 if a condition holds at every sample, else 0",
-        example: ("holds(data.time < 1)", "1"),
+        doc: docs("1 if a condition holds at every sample, else 0"),
+        example: (docs("holds(data.time < 1)"), docs("1")),
         ..OVER_RUN
     },
     Function {
         name: "rate",
         unit: Unit::Times(0, "1/s"),
-        doc: "rate of change of x per second: the slope of the least-squares line through all samples; NaN with one sample",
-        example: ("rate(3 * data.time)", "3"),
+        doc: docs(
+            "rate of change of x per second: the slope of the least-squares line through all samples; NaN with one sample",
+        ),
+        example: (docs("rate(3 * data.time)"), docs("3")),
         ..OVER_RUN
     },
     Function {
         name: "integral",
         unit: Unit::Times(0, "s"),
-        doc: "integral over time, by the trapezoid rule",
-        example: ("integral(2 * data.time)", "0.01"),
+        doc: docs("integral over time, by the trapezoid rule"),
+        example: (docs("integral(2 * data.time)"), docs("0.01")),
         ..OVER_RUN
     },
     Function {
         name: "rms",
         unit: Unit::Argument(1.0),
-        doc: "root of the mean square over time, by the trapezoid rule",
-        example: ("rms(data.qpos[0] - 3)", "3"),
+        doc: docs("root of the mean square over time, by the trapezoid rule"),
+        example: (docs("rms(data.qpos[0] - 3)"), docs("3")),
         ..OVER_RUN
     },
     Function {
         name: "mean",
         unit: Unit::Argument(1.0),
-        doc: "mean over time, by the trapezoid rule",
-        example: ("mean(data.time)", "0.05"),
+        doc: docs("mean over time, by the trapezoid rule"),
+        example: (docs("mean(data.time)"), docs("0.05")),
         ..OVER_RUN
     },
     Function {
         name: "initial",
         unit: Unit::Argument(1.0),
-        doc: "value at the first sample",
-        example: ("initial(data.time)", "0"),
+        doc: docs("value at the first sample"),
+        example: (docs("initial(data.time)"), docs("0")),
         ..OVER_RUN
     },
     Function {
         name: "final",
         unit: Unit::Argument(1.0),
-        doc: "value at the last sample",
-        example: ("final(data.time)", "0.1"),
+        doc: docs("value at the last sample"),
+        example: (docs("final(data.time)"), docs("0.1")),
         ..OVER_RUN
     },
     Function {
         name: "previous",
         unit: Unit::Argument(1.0),
-        doc: "value at the previous sample, within another measure: `first(x < previous(x))` is when x begins to fall; NaN at the first sample",
-        example: ("max(data.time - previous(data.time))", "0.002"),
+        doc: docs(
+            "value at the previous sample, within another measure: `first(x < previous(x))` is when x begins to fall; NaN at the first sample",
+        ),
+        example: (docs("max(data.time - previous(data.time))"), docs("0.002")),
         ..OVER_RUN
     },
     Function {
         name: "min",
         unit: Unit::Argument(1.0),
-        doc: "smallest value over the run",
-        example: ("min(data.qpos[0])", "0"),
+        doc: docs("smallest value over the run"),
+        example: (docs("min(data.qpos[0])"), docs("0")),
         ..OVER_RUN
     },
     Function {
         name: "max",
         unit: Unit::Argument(1.0),
-        doc: "largest value over the run",
-        example: ("max(data.time)", "0.1"),
+        doc: docs("largest value over the run"),
+        example: (docs("max(data.time)"), docs("0.1")),
         ..OVER_RUN
     },
 ];

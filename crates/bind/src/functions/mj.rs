@@ -3,6 +3,7 @@
 use super::{AccessedPart, Arg, Function, NOTHING, ROW, number, pass_result};
 use labspec_core::Obj;
 use labspec_expr::{Heap, Type, Value};
+use labspec_finding::docs;
 
 /// A function of `mj` that takes the model and the data.
 const ENGINE: Function =
@@ -12,18 +13,23 @@ pub(super) const ROWS: &[Function] = &[
     Function {
         name: "mj_setConst",
         writes: &[AccessedPart::Coordinates, AccessedPart::Derived],
-        doc: "recomputes the constants that follow from masses, inertias and poses; resets qpos to qpos0",
-        example: ("model.body_mass[1] = 2; mj.mj_setConst(model, data); model.body_subtreemass[0]", "2"),
+        doc: docs(
+            "recomputes the constants that follow from masses, inertias and poses; resets qpos to qpos0",
+        ),
+        example: (
+            docs("model.body_mass[1] = 2; mj.mj_setConst(model, data); model.body_subtreemass[0]"),
+            docs("2"),
+        ),
         run: |w, _, _| pass_result(w.set_const()),
         ..ENGINE
     },
     Function {
         name: "mj_forward",
         writes: &[AccessedPart::Derived],
-        doc: "computes every derived field from the state, without advancing time",
+        doc: docs("computes every derived field from the state, without advancing time"),
         example: (
-            "data.qpos[0] = Math.PI / 2; mj.mj_forward(model, data); data.site_xpos[0].toFixed(3)",
-            "-0.500",
+            docs("data.qpos[0] = Math.PI / 2; mj.mj_forward(model, data); data.site_xpos[0].toFixed(3)"),
+            docs("-0.500"),
         ),
         run: |w, _, _| pass_result(w.forward()),
         ..ENGINE
@@ -31,16 +37,16 @@ pub(super) const ROWS: &[Function] = &[
     Function {
         name: "mj_step",
         writes: &[AccessedPart::State, AccessedPart::Derived],
-        doc: "advances the simulation by one step",
-        example: ("mj.mj_step(model, data); data.time", "0.002"),
+        doc: docs("advances the simulation by one step"),
+        example: (docs("mj.mj_step(model, data); data.time"), docs("0.002")),
         run: |w, _, _| pass_result(w.step()),
         ..ENGINE
     },
     Function {
         name: "mj_resetData",
         writes: &[AccessedPart::State, AccessedPart::Derived],
-        doc: "resets the data to the default configuration",
-        example: ("data.qpos[0] = 1; mj.mj_resetData(model, data); data.qpos[0]", "0"),
+        doc: docs("resets the data to the default configuration"),
+        example: (docs("data.qpos[0] = 1; mj.mj_resetData(model, data); data.qpos[0]"), docs("0")),
         run: |w, _, _| pass_result(w.reset_data()),
         ..ENGINE
     },
@@ -48,8 +54,8 @@ pub(super) const ROWS: &[Function] = &[
         name: "mj_resetDataKeyframe",
         args: &[Arg::Model, Arg::Data, Arg::Number],
         writes: &[AccessedPart::State, AccessedPart::Derived],
-        doc: "resets the data to a keyframe, counted from 0",
-        example: ("mj.mj_resetDataKeyframe(model, data, 1); data.qpos[0]", "1.5"),
+        doc: docs("resets the data to a keyframe, counted from 0"),
+        example: (docs("mj.mj_resetDataKeyframe(model, data, 1); data.qpos[0]"), docs("1.5")),
         run: |w, _, args| {
             let key = args.first().map_or(0.0, Value::to_number);
             if !(key >= 0.0 && key < w.nkey() as f64) {
@@ -62,16 +68,16 @@ pub(super) const ROWS: &[Function] = &[
     Function {
         name: "mj_step1",
         writes: &[AccessedPart::Derived],
-        doc: "computes everything that follows from position and velocity: the first half of a step",
-        example: ("mj.mj_step1(model, data); data.time", "0"),
+        doc: docs("computes everything that follows from position and velocity: the first half of a step"),
+        example: (docs("mj.mj_step1(model, data); data.time"), docs("0")),
         run: |w, _, _| pass_result(w.step1()),
         ..ENGINE
     },
     Function {
         name: "mj_step2",
         writes: &[AccessedPart::State, AccessedPart::Derived],
-        doc: "computes forces and advances the simulation: the second half of a step",
-        example: ("mj.mj_step1(model, data); mj.mj_step2(model, data); data.time", "0.002"),
+        doc: docs("computes forces and advances the simulation: the second half of a step"),
+        example: (docs("mj.mj_step1(model, data); mj.mj_step2(model, data); data.time"), docs("0.002")),
         run: |w, _, _| pass_result(w.step2()),
         ..ENGINE
     },
@@ -79,10 +85,10 @@ pub(super) const ROWS: &[Function] = &[
         name: "mj_kinematics",
         reads: AccessedPart::Derived,
         writes: &[AccessedPart::Derived],
-        doc: "computes the poses of bodies, joints, geoms and sites from the coordinates",
+        doc: docs("computes the poses of bodies, joints, geoms and sites from the coordinates"),
         example: (
-            "data.qpos[0] = Math.PI; mj.mj_kinematics(model, data); data.site_xpos[2].toFixed(2)",
-            "1.50",
+            docs("data.qpos[0] = Math.PI; mj.mj_kinematics(model, data); data.site_xpos[2].toFixed(2)"),
+            docs("1.50"),
         ),
         run: |w, _, _| pass_result(w.kinematics()),
         ..ENGINE
@@ -90,10 +96,10 @@ pub(super) const ROWS: &[Function] = &[
     Function {
         name: "mj_fwdPosition",
         writes: &[AccessedPart::Derived],
-        doc: "computes everything that follows from positions: poses, the mass matrix, contacts",
+        doc: docs("computes everything that follows from positions: poses, the mass matrix, contacts"),
         example: (
-            "data.qpos[0] = Math.PI; mj.mj_fwdPosition(model, data); data.site_xpos[2].toFixed(2)",
-            "1.50",
+            docs("data.qpos[0] = Math.PI; mj.mj_fwdPosition(model, data); data.site_xpos[2].toFixed(2)"),
+            docs("1.50"),
         ),
         run: |w, _, _| pass_result(w.fwd_position()),
         ..ENGINE
@@ -102,10 +108,12 @@ pub(super) const ROWS: &[Function] = &[
         name: "mj_fwdVelocity",
         reads: AccessedPart::Derived,
         writes: &[AccessedPart::Derived],
-        doc: "computes everything that follows from velocities, after the position stage",
+        doc: docs("computes everything that follows from velocities, after the position stage"),
         example: (
-            "data.qvel[0] = 2; mj.mj_fwdPosition(model, data); mj.mj_fwdVelocity(model, data); data.cvel[7]",
-            "2",
+            docs(
+                "data.qvel[0] = 2; mj.mj_fwdPosition(model, data); mj.mj_fwdVelocity(model, data); data.cvel[7]",
+            ),
+            docs("2"),
         ),
         run: |w, _, _| pass_result(w.fwd_velocity()),
         ..ENGINE
@@ -114,16 +122,18 @@ pub(super) const ROWS: &[Function] = &[
         name: "mj_collision",
         reads: AccessedPart::Derived,
         writes: &[AccessedPart::Contacts],
-        doc: "finds the contacts of geoms at their current poses",
-        example: ("mj.mj_kinematics(model, data); mj.mj_collision(model, data); data.ncon", "0"),
+        doc: docs("finds the contacts of geoms at their current poses"),
+        example: (docs("mj.mj_kinematics(model, data); mj.mj_collision(model, data); data.ncon"), docs("0")),
         run: |w, _, _| pass_result(w.collision()),
         ..ENGINE
     },
     Function {
         name: "mj_integratePos",
         args: &[Arg::Model, Arg::Any, Arg::Numbers, Arg::Number],
-        doc: "integrates coordinates in place (the list in the second argument) with a velocity over a time in s",
-        example: ("ctx.q = [0.5]; mj.mj_integratePos(model, ctx.q, [2], 0.1); ctx.q[0]", "0.7"),
+        doc: docs(
+            "integrates coordinates in place (the list in the second argument) with a velocity over a time in s",
+        ),
+        example: (docs("ctx.q = [0.5]; mj.mj_integratePos(model, ctx.q, [2], 0.1); ctx.q[0]"), docs("0.7")),
         run: |w, heap, args| {
             let mut q = numbers(heap, args, 0)?;
             w.integrate_pos(
@@ -138,10 +148,12 @@ pub(super) const ROWS: &[Function] = &[
     Function {
         name: "mj_differentiatePos",
         args: &[Arg::Model, Arg::Any, Arg::Number, Arg::Numbers, Arg::Numbers],
-        doc: "computes the velocity that leads from one list of coordinates to another over a time in s, and writes it into the list in the second argument",
+        doc: docs(
+            "computes the velocity that leads from one list of coordinates to another over a time in s, and writes it into the list in the second argument",
+        ),
         example: (
-            "ctx.v = [0]; mj.mj_differentiatePos(model, ctx.v, 0.1, [0.5], [0.7]); ctx.v[0].toFixed(6)",
-            "2.000000",
+            docs("ctx.v = [0]; mj.mj_differentiatePos(model, ctx.v, 0.1, [0.5], [0.7]); ctx.v[0].toFixed(6)"),
+            docs("2.000000"),
         ),
         run: |w, heap, args| {
             let [from, to] = [numbers(heap, args, 2)?, numbers(heap, args, 3)?];
@@ -159,8 +171,8 @@ pub(super) const ROWS: &[Function] = &[
         name: "mj_energyPos",
         reads: AccessedPart::Derived,
         writes: &[AccessedPart::Energy],
-        doc: "computes the potential energy of the current poses into data.energy[0], J",
-        example: ("mj.mj_energyPos(model, data); data.energy[0]", "4.905"),
+        doc: docs("computes the potential energy of the current poses into data.energy[0], J"),
+        example: (docs("mj.mj_energyPos(model, data); data.energy[0]"), docs("4.905")),
         run: |w, _, _| pass_result(w.energy_pos()),
         ..ENGINE
     },
@@ -168,8 +180,11 @@ pub(super) const ROWS: &[Function] = &[
         name: "mj_energyVel",
         reads: AccessedPart::Derived,
         writes: &[AccessedPart::Energy],
-        doc: "computes the kinetic energy of the current velocities into data.energy[1], J",
-        example: ("data.qvel[0] = 2; mj.mj_energyVel(model, data); data.energy[1].toFixed(5)", "0.50072"),
+        doc: docs("computes the kinetic energy of the current velocities into data.energy[1], J"),
+        example: (
+            docs("data.qvel[0] = 2; mj.mj_energyVel(model, data); data.energy[1].toFixed(5)"),
+            docs("0.50072"),
+        ),
         run: |w, _, _| pass_result(w.energy_vel()),
         ..ENGINE
     },
@@ -177,8 +192,11 @@ pub(super) const ROWS: &[Function] = &[
         name: "mj_inverse",
         reads: AccessedPart::Derived,
         writes: &[AccessedPart::Derived],
-        doc: "computes qfrc_inverse, the generalized force that causes the acceleration in qacc",
-        example: ("mj.mj_inverse(model, data); Math.abs(data.qfrc_inverse[0]).toFixed(4)", "0.0000"),
+        doc: docs("computes qfrc_inverse, the generalized force that causes the acceleration in qacc"),
+        example: (
+            docs("mj.mj_inverse(model, data); Math.abs(data.qfrc_inverse[0]).toFixed(4)"),
+            docs("0.0000"),
+        ),
         run: |w, _, _| pass_result(w.inverse()),
         ..ENGINE
     },
@@ -186,10 +204,12 @@ pub(super) const ROWS: &[Function] = &[
         name: "mj_subtreeVel",
         reads: AccessedPart::Derived,
         writes: &[AccessedPart::Derived],
-        doc: "computes velocity and angular momentum of the subtrees",
+        doc: docs("computes velocity and angular momentum of the subtrees"),
         example: (
-            "data.qvel[0] = 2; mj.mj_forward(model, data); mj.mj_subtreeVel(model, data); data.subtree_linvel[3].toFixed(3)",
-            "-1.000",
+            docs(
+                "data.qvel[0] = 2; mj.mj_forward(model, data); mj.mj_subtreeVel(model, data); data.subtree_linvel[3].toFixed(3)",
+            ),
+            docs("-1.000"),
         ),
         run: |w, _, _| pass_result(w.subtree_vel()),
         ..ENGINE
@@ -198,8 +218,8 @@ pub(super) const ROWS: &[Function] = &[
         name: "mj_rnePostConstraint",
         reads: AccessedPart::Derived,
         writes: &[AccessedPart::Derived],
-        doc: "computes accelerations of bodies and the forces between them",
-        example: ("mj.mj_rnePostConstraint(model, data); data.cfrc_int[11].toFixed(2)", "9.81"),
+        doc: docs("computes accelerations of bodies and the forces between them"),
+        example: (docs("mj.mj_rnePostConstraint(model, data); data.cfrc_int[11].toFixed(2)"), docs("9.81")),
         run: |w, _, _| pass_result(w.rne_post_constraint()),
         ..ENGINE
     },
@@ -207,10 +227,14 @@ pub(super) const ROWS: &[Function] = &[
         name: "mj_contactForce",
         args: &[Arg::Model, Arg::Data, Arg::Number, Arg::Any],
         reads: AccessedPart::Contacts,
-        doc: "writes the force and torque of a contact, counted from 0, into a list of six: N along the normal and two tangents, then N m about them; zeros if the contact has no constraint",
+        doc: docs(
+            "writes the force and torque of a contact, counted from 0, into a list of six: N along the normal and two tangents, then N m about them; zeros if the contact has no constraint",
+        ),
         example: (
-            "ctx.f = [0, 0, 0, 0, 0, 0]; if (data.ncon > 0) { mj.mj_contactForce(model, data, 0, ctx.f) }; ctx.f[0]",
-            "0",
+            docs(
+                "ctx.f = [0, 0, 0, 0, 0, 0]; if (data.ncon > 0) { mj.mj_contactForce(model, data, 0, ctx.f) }; ctx.f[0]",
+            ),
+            docs("0"),
         ),
         run: |w, heap, args| {
             let id = number(args)?;
@@ -233,8 +257,10 @@ pub(super) const ROWS: &[Function] = &[
         name: "mj_name2id",
         args: &[Arg::Model, Arg::Number, Arg::Text],
         returns: Type::Number,
-        doc: "index of the object of this kind (as mj.mjtObj.mjOBJ_BODY.value) and name; -1 if there is none",
-        example: ("mj.mj_name2id(model, mj.mjtObj.mjOBJ_BODY.value, 'bob')", "1"),
+        doc: docs(
+            "index of the object of this kind (as mj.mjtObj.mjOBJ_BODY.value) and name; -1 if there is none",
+        ),
+        example: (docs("mj.mj_name2id(model, mj.mjtObj.mjOBJ_BODY.value, 'bob')"), docs("1")),
         run: |w, _, args| {
             let name = args.get(1).map(Value::to_string).unwrap_or_default();
             let id = kind(number(args)?).and_then(|kind| w.names().id(kind, &name));
@@ -246,8 +272,8 @@ pub(super) const ROWS: &[Function] = &[
         name: "mj_id2name",
         args: &[Arg::Model, Arg::Number, Arg::Number],
         returns: Type::Any,
-        doc: "name of the object of this kind and index; null if there is none",
-        example: ("mj.mj_id2name(model, mj.mjtObj.mjOBJ_SITE.value, 0)", "tip"),
+        doc: docs("name of the object of this kind and index; null if there is none"),
+        example: (docs("mj.mj_id2name(model, mj.mjtObj.mjOBJ_SITE.value, 0)"), docs("tip")),
         run: |w, _, args| {
             let index = args.get(1).map_or(-1.0, Value::to_number);
             let names = kind(number(args)?).map(|kind| w.names().of_kind(kind)).unwrap_or(&[]);

@@ -4,6 +4,7 @@ use super::access::EngineAccess;
 use super::{Arg, Function, FunctionPlace, ROW, Unit};
 use crate::world::NUMBERS;
 use labspec_expr::{Heap, Value};
+use labspec_finding::docs;
 
 const OVER: Function = Function { args: &[Arg::Any], place: FunctionPlace::Claims, ..ROW };
 
@@ -12,8 +13,10 @@ pub(super) const ROWS: &[Function] = &[
         name: "slope",
         args: &[Arg::Any, Arg::Any],
         optional: 1,
-        doc: "slope(run.measure): how fast a measure of a sweep grows with the swept value, as the slope of the least-squares line; slope(y, x) for two lists",
-        example: ("slope(run.h) + slope([1, 3, 5], [0, 1, 2])", "3"),
+        doc: docs(
+            "slope(run.measure): how fast a measure of a sweep grows with the swept value, as the slope of the least-squares line; slope(y, x) for two lists",
+        ),
+        example: (docs("slope(run.h) + slope([1, 3, 5], [0, 1, 2])"), docs("3")),
         run: |w, heap, args| {
             let (y, x) = pairs(w, heap, args.first(), args.get(1))?;
             Ok(Value::Number(slope(&x, &y)))
@@ -24,8 +27,10 @@ pub(super) const ROWS: &[Function] = &[
         name: "fit",
         args: &[Arg::Any, Arg::Text, Arg::Any],
         optional: 1,
-        doc: "fit(run.measure, law): the parameter of a least-squares fit, in the logarithms that make the law a straight line: 'power' the exponent n of a xⁿ, 'exponential' the rate k of a exp(k x), 'logarithm' the factor b of a + b ln x; NaN if a logarithm needs a number that is not positive; fit(y, law, x) for two lists",
-        example: ("fit(run.h, 'power') + fit([1, 4, 9], 'power', [1, 2, 3])", "3"),
+        doc: docs(
+            "fit(run.measure, law): the parameter of a least-squares fit, in the logarithms that make the law a straight line: 'power' the exponent n of a xⁿ, 'exponential' the rate k of a exp(k x), 'logarithm' the factor b of a + b ln x; NaN if a logarithm needs a number that is not positive; fit(y, law, x) for two lists",
+        ),
+        example: (docs("fit(run.h, 'power') + fit([1, 4, 9], 'power', [1, 2, 3])"), docs("3")),
         run: |w, heap, args| {
             let law = match args.get(1) {
                 Some(Value::String(law)) => LAWS.iter().find(|(name, ..)| *name == &**law),
@@ -44,24 +49,24 @@ pub(super) const ROWS: &[Function] = &[
     Function {
         name: "min",
         unit: Unit::Argument(1.0),
-        doc: "smallest value of a measure over a sweep",
-        example: ("min(run.h)", "0.001"),
+        doc: docs("smallest value of a measure over a sweep"),
+        example: (docs("min(run.h)"), docs("0.001")),
         run: |w, heap, args| fold(w, heap, args, f64::min),
         ..OVER
     },
     Function {
         name: "max",
         unit: Unit::Argument(1.0),
-        doc: "largest value of a measure over a sweep",
-        example: ("max(run.h)", "0.004"),
+        doc: docs("largest value of a measure over a sweep"),
+        example: (docs("max(run.h)"), docs("0.004")),
         run: |w, heap, args| fold(w, heap, args, f64::max),
         ..OVER
     },
     Function {
         name: "mean",
         unit: Unit::Argument(1.0),
-        doc: "mean of a measure over a sweep",
-        example: ("3000 * mean(run.h)", "7"),
+        doc: docs("mean of a measure over a sweep"),
+        example: (docs("3000 * mean(run.h)"), docs("7")),
         run: |w, heap, args| {
             let (list, _) = numbers(w, heap, args.first())?;
             Ok(Value::Number(list.iter().sum::<f64>() / list.len() as f64))

@@ -5,44 +5,47 @@ use super::lib::{ENERGIES, energy};
 use super::{AccessedPart, Function, ROW, Unit, pass_result};
 use crate::world::Playback;
 use labspec_expr::{Type, Value};
+use labspec_finding::docs;
 
 const SIM: Function = Function { object: "sim", returns: Type::Void, ..ROW };
 
 pub(super) const ROWS: &[Function] = &[
     Function {
         name: "play",
-        doc: "resumes the page",
-        example: ("sim.play(); data.time", "0"),
+        doc: docs("resumes the page"),
+        example: (docs("sim.play(); data.time"), docs("0")),
         run: |w, _, _| w.ask_playback(Playback::Play),
         ..SIM
     },
     Function {
         name: "pause",
-        doc: "pauses the page",
-        example: ("sim.pause(); data.time", "0"),
+        doc: docs("pauses the page"),
+        example: (docs("sim.pause(); data.time"), docs("0")),
         run: |w, _, _| w.ask_playback(Playback::Pause),
         ..SIM
     },
     Function {
         name: "toggle",
-        doc: "pauses or resumes the page",
-        example: ("sim.toggle(); data.time", "0"),
+        doc: docs("pauses or resumes the page"),
+        example: (docs("sim.toggle(); data.time"), docs("0")),
         run: |w, _, _| w.ask_playback(Playback::Toggle),
         ..SIM
     },
     Function {
         name: "forward",
         writes: &[AccessedPart::Derived],
-        doc: "computes every derived field from the state",
-        example: ("data.qpos[0] = Math.PI; sim.forward(); data.site_xpos[2].toFixed(2)", "1.50"),
+        doc: docs("computes every derived field from the state"),
+        example: (docs("data.qpos[0] = Math.PI; sim.forward(); data.site_xpos[2].toFixed(2)"), docs("1.50")),
         run: |w, _, _| pass_result(w.forward()),
         ..SIM
     },
     Function {
         name: "reset",
         writes: &[AccessedPart::State, AccessedPart::Derived],
-        doc: "resets the data to the initial state, or to the keyframe of the lab, and computes the derived fields",
-        example: ("data.qpos[0] = 1; sim.reset(); data.qpos[0]", "0"),
+        doc: docs(
+            "resets the data to the initial state, or to the keyframe of the lab, and computes the derived fields",
+        ),
+        example: (docs("data.qpos[0] = 1; sim.reset(); data.qpos[0]"), docs("0")),
         run: |w, _, _| {
             w.reset()?;
             pass_result(w.forward())
@@ -56,8 +59,8 @@ pub(super) const ROWS: &[Function] = &[
         reads: AccessedPart::Energy,
         writes: &[AccessedPart::Flags, AccessedPart::Derived],
         unit: Unit::Of("J"),
-        doc: "potential, kinetic and total energy, J; the first use turns the energy computation on",
-        example: ("sim.energy().potential", "4.905"),
+        doc: docs("potential, kinetic and total energy, J; the first use turns the energy computation on"),
+        example: (docs("sim.energy().potential"), docs("4.905")),
         run: |w, heap, _| energy(w, heap),
         ..SIM
     },
@@ -65,8 +68,8 @@ pub(super) const ROWS: &[Function] = &[
         name: "contacts",
         returns: Type::List,
         reads: AccessedPart::Contacts,
-        doc: "the contacts, each a record of geom1, geom2, dist (m), pos (m), frame, force (N) and dim",
-        example: ("sim.contacts().length", "0"),
+        doc: docs("the contacts, each a record of geom1, geom2, dist (m), pos (m), frame, force (N) and dim"),
+        example: (docs("sim.contacts().length"), docs("0")),
         run: |w, heap, _| {
             let full = |_| "the lists of this lab take too much memory".to_owned();
             let mut contacts = Vec::new();

@@ -122,8 +122,8 @@ macro_rules! table {
             gives: $crate::natives::native::NativeResult::$gives,
             changes: !stringify!($($changes)?).is_empty(),
             nan: $crate::natives::native::NanBehaviour::$nan,
-            doc: $doc,
-            example: ($example, $value),
+            doc: labspec_finding::docs($doc),
+            example: (labspec_finding::docs($example), labspec_finding::docs($value)),
             body: $crate::natives::native::Implementation::Run($run, $least, $most),
         },)*]
     };
@@ -135,8 +135,8 @@ macro_rules! table {
             gives: $crate::natives::native::NativeResult::Any,
             changes: !stringify!($($changes)?).is_empty(),
             nan: $crate::natives::native::NanBehaviour::Source,
-            doc: $doc,
-            example: ($example, $value),
+            doc: labspec_finding::docs($doc),
+            example: (labspec_finding::docs($example), labspec_finding::docs($value)),
             body: $crate::natives::native::Implementation::Source(&[($first, $text) $(, ($next, $more))?]),
         },)*]
     };

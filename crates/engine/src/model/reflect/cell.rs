@@ -108,6 +108,10 @@ pub(super) trait Typed {
 /// field.
 pub(crate) trait Cell {
     fn view(&self) -> View<'_>;
+    /// Element `i` as a number, `None` past the end.
+    fn get(&self, i: usize) -> Option<f64> {
+        self.view().get(i)
+    }
     fn view_mut(&mut self) -> ViewMut<'_>;
     /// Resizes an array to `n` zeros, and sets numbers of fixed shape to zero. Sizes do not change.
     fn allocate(&mut self, n: usize);

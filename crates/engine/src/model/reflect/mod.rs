@@ -14,6 +14,7 @@ use crate::model::bytes::fingerprint;
 use crate::model::fields::{data_fields, model_fields, option_fields, statistic_fields};
 use crate::model::{Fields, Model};
 use cell::Typed;
+use labspec_finding::docs;
 use labspec_finding::order::sort_by;
 use std::sync::LazyLock;
 
@@ -105,30 +106,14 @@ impl FieldId {
         FIELD_TEXTS[self.0 as usize].unit
     }
 
-    /// One line of documentation.
+    /// One line of documentation, empty in a build without descriptions ([`labspec_finding::docs`]).
     pub fn doc(self) -> &'static str {
         FIELD_TEXTS[self.0 as usize].doc
     }
 }
 
-/// Reads one element of a field.
-type Reader = fn(&Model, &Fields, usize) -> Option<f64>;
-
-fn model<'a>(m: &'a Model, _: &'a Fields) -> &'a Model {
-    m
-}
-fn options<'a>(m: &'a Model, _: &'a Fields) -> &'a crate::model::Options {
-    &m.opt
-}
-fn statistic<'a>(m: &'a Model, _: &'a Fields) -> &'a crate::model::Statistic {
-    &m.stat
-}
-fn data<'a>(_: &'a Model, d: &'a Fields) -> &'a Fields {
-    d
-}
-
 macro_rules! reflect {
-    ($infos:ident, $words:ident, $readers:ident, $count:ident, $ids:ident, $object:ident, $struct:ty, $of:ident; $($name:ident: $ty:ty, [$($dim:tt),*], $kind:ident, $stage:ident, $unit:literal, $doc:literal;)*) => {
+    ($infos:ident, $words:ident, $count:ident, $ids:ident, $object:ident, $struct:ty; $($name:ident: $ty:ty, [$($dim:tt),*], $kind:ident, $stage:ident, $unit:literal, $doc:literal;)*) => {
         const $infos: &[&FieldInfo] = &[$(&FieldInfo {
             object: Object::$object,
             name: stringify!($name),
@@ -137,9 +122,8 @@ macro_rules! reflect {
             kind: Kind::$kind,
             stage: Stage::$stage,
         }),*];
-        const $words: &[&FieldTexts] = &[$(&FieldTexts { unit: $unit, doc: $doc }),*];
+        const $words: &[&FieldTexts] = &[$(&FieldTexts { unit: $unit, doc: docs($doc) }),*];
         const $count: usize = $infos.len();
-        const $readers: &[Reader] = &[$(|m, d, i| $of(m, d).$name.view().get(i)),*];
         #[allow(non_camel_case_types)] // variants have the names of the fields
         #[derive(Clone, Copy)]
         #[repr(u16)]
@@ -154,10 +138,10 @@ macro_rules! reflect {
         }
     };
 }
-macro_rules! reflect_model { ($($t:tt)*) => { reflect! { MODEL, MODEL_TEXTS, MODEL_READERS, MODEL_COUNT, ModelId, Model, Model, model; $($t)* } } }
-macro_rules! reflect_option { ($($t:tt)*) => { reflect! { OPTION, OPTION_TEXTS, OPTION_READERS, OPTION_COUNT, OptionId, Option, crate::model::Options, options; $($t)* } } }
-macro_rules! reflect_stat { ($($t:tt)*) => { reflect! { STAT, STAT_TEXTS, STAT_READERS, STAT_COUNT, StatId, Statistic, crate::model::Statistic, statistic; $($t)* } } }
-macro_rules! reflect_data { ($($t:tt)*) => { reflect! { DATA, DATA_TEXTS, DATA_READERS, DATA_COUNT, DataId, Data, Fields, data; $($t)* } } }
+macro_rules! reflect_model { ($($t:tt)*) => { reflect! { MODEL, MODEL_TEXTS, MODEL_COUNT, ModelId, Model, Model; $($t)* } } }
+macro_rules! reflect_option { ($($t:tt)*) => { reflect! { OPTION, OPTION_TEXTS, OPTION_COUNT, OptionId, Option, crate::model::Options; $($t)* } } }
+macro_rules! reflect_stat { ($($t:tt)*) => { reflect! { STAT, STAT_TEXTS, STAT_COUNT, StatId, Statistic, crate::model::Statistic; $($t)* } } }
+macro_rules! reflect_data { ($($t:tt)*) => { reflect! { DATA, DATA_TEXTS, DATA_COUNT, DataId, Data, Fields; $($t)* } } }
 model_fields!(reflect_model);
 option_fields!(reflect_option);
 statistic_fields!(reflect_stat);
@@ -213,7 +197,6 @@ macro_rules! whole_table {
 /// The whole table: model, options, statistics, data.
 pub(crate) static FIELDS: [&FieldInfo; NFIELD] = whole_table!(MODEL, OPTION, STAT, DATA);
 static FIELD_TEXTS: [&FieldTexts; NFIELD] = whole_table!(MODEL_TEXTS, OPTION_TEXTS, STAT_TEXTS, DATA_TEXTS);
-static READERS: [Reader; NFIELD] = whole_table!(MODEL_READERS, OPTION_READERS, STAT_READERS, DATA_READERS);
 
 /// All field ids, in table order.
 pub fn fields() -> impl Iterator<Item = FieldId> {
@@ -234,18 +217,23 @@ static BY_NAME: LazyLock<Vec<FieldId>> = LazyLock::new(|| {
     all
 });
 
-/// The numbers of a field of the model, its options or its statistics. Empty for a field of the data.
-pub fn view_model(m: &Model, field: FieldId) -> View<'_> {
+/// A field of the model, its options or its statistics; `None` for a field of the data.
+fn model_cell(m: &Model, field: FieldId) -> Option<&dyn Cell> {
     let i = field.0 as usize;
     if i < OPTION_AT {
-        m.cell(ModelId::ALL[i]).view()
+        Some(m.cell(ModelId::ALL[i]))
     } else if i < STAT_AT {
-        m.opt.cell(OptionId::ALL[i - OPTION_AT]).view()
+        Some(m.opt.cell(OptionId::ALL[i - OPTION_AT]))
     } else if i < DATA_AT {
-        m.stat.cell(StatId::ALL[i - STAT_AT]).view()
+        Some(m.stat.cell(StatId::ALL[i - STAT_AT]))
     } else {
-        View::F64(&[])
+        None
     }
+}
+
+/// The numbers of a field of the model, its options or its statistics. Empty for a field of the data.
+pub fn view_model(m: &Model, field: FieldId) -> View<'_> {
+    model_cell(m, field).map_or(View::F64(&[]), |cell| cell.view())
 }
 
 /// The numbers of a field of the data. Empty for a field of the model.
@@ -286,7 +274,10 @@ pub fn view<'a>(m: &'a Model, d: &'a Fields, field: FieldId) -> View<'a> {
 /// Element `i` of a field, or `None` past the end. The same value as from [`view`], in one step.
 #[inline]
 pub fn element(m: &Model, d: &Fields, field: FieldId, i: usize) -> Option<f64> {
-    READERS.get(field.0 as usize)?(m, d, i)
+    match (field.0 as usize).checked_sub(DATA_AT) {
+        Some(data) => d.cell(*DataId::ALL.get(data)?).get(i),
+        None => model_cell(m, field)?.get(i),
+    }
 }
 
 /// Whether programs may write a field. Structure and computed integers cannot be written, because the engine uses them as

@@ -12,7 +12,7 @@ use crate::rules;
 use crate::schema::{Field, Help};
 use crate::types::{CollectionId, ObjectId, Type};
 use crate::value::Value;
-use labspec_finding::{Finding, Fix, Span, nearest};
+use labspec_finding::{DESCRIBED, Finding, Fix, Span, nearest};
 
 /// The largest number of elements of an array that a help names one by one.
 const MAX_LISTED: usize = 4;
@@ -66,7 +66,7 @@ impl<'a> Binder<'a> {
     /// If the index is known, records the description of an element and its spelling by object name.
     pub(super) fn name_element(&mut self, field: &Field, index: &Index, span: Span) {
         let Index::At(i) = index else { return };
-        if self.site.is_some() || !self.explains {
+        if !DESCRIBED || self.site.is_some() || !self.explains {
             return;
         }
         self.explain_element(field, *i, span);

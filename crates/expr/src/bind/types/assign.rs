@@ -284,7 +284,10 @@ impl<'a> Binder<'a> {
                     span,
                     format!("`{}` is fixed with the {}", field.path, self.host_terms().model),
                 )
-                .why(format!("it is {}; the positions of other fields depend on it", doc(field)))
+                .why(match &*field.doc {
+                    "" => "the positions of other fields depend on it".to_owned(),
+                    doc => format!("it is {doc}; the positions of other fields depend on it"),
+                })
                 .help(format!("change the {} itself", self.host_terms().model)),
             ),
             FieldKind::Derived { by } => {
@@ -324,9 +327,4 @@ fn array_in_element(span: Span) -> Finding {
     Finding::error(rules::ASSIGN_ARRAY, span, "an array cannot be stored in one element")
         .why("an element is a single number")
         .help("store several numbers with `.set([…], offset)`")
-}
-
-/// The description of a field, for use inside a sentence.
-fn doc(field: &Field) -> &str {
-    if field.doc.is_empty() { "a size, a type or an address" } else { &field.doc }
 }

@@ -18,7 +18,7 @@ use crate::rules;
 use crate::schema::{Field, Help, Schema};
 use crate::tables::{FreeFunctionId, MethodId, UnitId};
 use crate::types::{CollectionId, FunctionId, ObjectId, Type};
-use labspec_finding::{Finding, Fix, Span};
+use labspec_finding::{DESCRIBED, Finding, Fix, Span};
 
 /// The result of the types pass for one source text.
 pub(in crate::bind) struct BoundText {
@@ -335,7 +335,7 @@ impl<'a> Binder<'a> {
     /// Records the help for a part of the text.
     pub(super) fn explain(&mut self, span: Span, help: impl FnOnce() -> Help) {
         const MOST: usize = 1000;
-        if self.explains && self.site.is_none() && self.help.len() < MOST {
+        if DESCRIBED && self.explains && self.site.is_none() && self.help.len() < MOST {
             self.help.push((span, help()));
         }
     }

@@ -295,8 +295,10 @@ impl<'a> Binder<'a> {
             count(n, "argument")
         };
         let message = format!("`{}` takes {expected}, not {}", info.name, args.len());
-        let report =
-            Finding::error(rules::ARGUMENT_COUNT, span, message).why(format!("it does this: {}", info.doc));
+        let mut report = Finding::error(rules::ARGUMENT_COUNT, span, message);
+        if !info.doc.is_empty() {
+            report = report.why(format!("it does this: {}", info.doc));
+        }
         let only_objects =
             !info.params.is_empty() && info.params.iter().all(|p| matches!(p, Param::Object(_)));
         if let Some(callee) = callee.filter(|_| only_objects) {
