@@ -21,6 +21,7 @@
 //! (`docs/site`).
 
 mod archive;
+mod function_order;
 mod page;
 mod panics;
 
@@ -139,17 +140,24 @@ fn build(folder: Option<PathBuf>) -> Result<PathBuf, String> {
     Ok(folder)
 }
 
-/// Makes a module smaller, where `wasm-opt` is installed. Below address 1024 is the end of the stack, which nothing addresses by
-/// arithmetic: offsets can go into loads and stores.
+/// Makes a module smaller, where `wasm-opt` is installed: optimizes it, then puts functions that share code next to each other.
 fn optimize(web: &Path, module: &Path) -> Result<(), String> {
     let program = web.join("node_modules/.bin/wasm-opt");
     if !program.exists() {
         return Ok(());
     }
-    let names = keeps_names().then_some("-g");
-    let done = Command::new(program).args(names).args(OPTIONS).args(FEATURES).arg(module).arg("-o").arg(module).status();
-    match done.map_err(|e| format!("cannot run wasm-opt: {e}"))?.success() {
-        true => Ok(()),
-        false => Err(format!("wasm-opt refuses {}", module.display())),
+    let run = |options: &[&str]| {
+        let done =
+            Command::new(&program).args(options).args(FEATURES).arg(module).arg("-o").arg(module).status();
+        match done.map_err(|e| format!("cannot run wasm-opt: {e}"))?.success() {
+            true => Ok(()),
+            false => Err(format!("wasm-opt refuses {}", module.display())),
+        }
+    };
+    if keeps_names() {
+        return run(&[&["-g"], &OPTIONS[..]].concat());
     }
+    run(&OPTIONS)?;
+    function_order::name_by_place(module)?;
+    run(&["--reorder-functions-by-name"])
 }
