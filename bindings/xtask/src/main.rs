@@ -7,10 +7,10 @@
 //! installed, the compilation target is added if necessary. `LABSPEC_PROFILE=quick` builds slow and large modules in a minute,
 //! `LABSPEC_MODULE=player` only that module, and `LABSPEC_NAMES=1` keeps the names of functions, for profilers.
 //!
-//! `… -- release [FOLDER]` builds the program for this machine and packs it with its licences, manual pages, completions and the
-//! scripts of pages into `labspec-VERSION-TARGET.tar.gz`, next to a file with its SHA-256, in FOLDER (`target/release-archives`). The
-//! same program gives the same bytes. On x86-64 the program is built twice: for every processor, and with AVX2, which the first one
-//! starts where the processor has it. The archive is tried, also on an emulated old processor if `qemu-x86_64` is installed.
+//! `… -- release [FOLDER [PART…]]` writes a release into FOLDER (`target/release-archives`): the program for this machine and, where the
+//! tools are installed, for 64-bit ARM, with manual pages, completions and the scripts of pages; the C library; all crates; the npm
+//! packages; the wheel; the editor's extension; the lists of components (CycloneDX); and the SHA-256 of each. Archives are tried here,
+//! also on an emulated old processor if `qemu-x86_64` is installed. `LABSPEC_PROFILE=quick` tries it without optimization.
 //!
 //! `… -- page` builds the modules, then the npm packages up to the scripts and styles of pages, which `labspec build` and `labspec
 //! preview` find in `web/site/dist`.
@@ -20,10 +20,10 @@
 //! `… -- site [FOLDER]` does the same once, then builds the documentation and the course of this repository by `labspec build`, in FOLDER
 //! (`docs/site`).
 
-mod archive;
 mod function_order;
 mod page;
 mod panics;
+mod release;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
@@ -34,7 +34,11 @@ fn main() -> ExitCode {
     let mut arguments = std::env::args_os().skip(1);
     let first = arguments.next();
     let done = match first.as_deref().and_then(|a| a.to_str()) {
-        Some("release") => archive::release(arguments.next().map(PathBuf::from), || build(None)),
+        Some("release") => {
+            let folder = arguments.next().map(PathBuf::from);
+            let parts: Vec<String> = arguments.map(|part| part.to_string_lossy().into_owned()).collect();
+            release::release(folder, &parts, || page::built(|| build(None)))
+        }
         Some("page") => build(None).and_then(|_| page::page()),
         Some("preview") => page::preview(arguments.next().map(PathBuf::from), || build(None)),
         Some("site") => page::site(arguments.next().map(PathBuf::from), || build(None)),

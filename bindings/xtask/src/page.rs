@@ -66,7 +66,8 @@ pub(crate) fn built(build: impl Fn() -> Result<PathBuf, String>) -> Result<PathB
     Ok(files)
 }
 
-fn root() -> PathBuf {
+/// The repository.
+pub(crate) fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
@@ -86,7 +87,8 @@ fn labspec(root: &Path, name: &str, arguments: impl Fn(&mut Command) -> &mut Com
     }
 }
 
-fn npm(folder: &Path, arguments: &[&str]) -> Result<(), String> {
+/// Runs npm in the folder of a package.
+pub(crate) fn npm(folder: &Path, arguments: &[&str]) -> Result<(), String> {
     let program = if cfg!(windows) { "npm.cmd" } else { "npm" };
     let done = Command::new(program).args(arguments).current_dir(folder).status();
     match done.map_err(|e| format!("cannot run npm, which comes with node: {e}"))?.success() {

@@ -1,0 +1,67 @@
+//! The packages of crates.io, of npm, and of editors, made by the tools of their registries.
+
+use super::{Release, emptied, failed, files_of};
+use crate::page::npm;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Packs all crates that are published, and builds each of them as it was packed.
+pub(super) fn crates(release: &Release) -> Result<Vec<PathBuf>, String> {
+    let target = release.target.join("packed-crates");
+    let packed = target.join("package");
+    emptied(&packed)?;
+    let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    cargo.args(["package", "--workspace", "--quiet", "--locked", "--allow-dirty"]).current_dir(&release.root);
+    if release.quick {
+        cargo.arg("--no-verify");
+    }
+    let done =
+        cargo.env("CARGO_TARGET_DIR", &target).status().map_err(|e| format!("cannot run cargo: {e}"))?;
+    if !done.success() {
+        return Err("a crate cannot be packed".into());
+    }
+    let mut files = files_of(&packed)?;
+    files.retain(|file| file.extension().is_some_and(|ending| ending == "crate"));
+    files.into_iter().map(|file| copied(&file, &release.folder, None)).collect()
+}
+
+/// Copies a file into a folder, under a name if one is given.
+fn copied(file: &Path, folder: &Path, name: Option<String>) -> Result<PathBuf, String> {
+    let name = name.map_or_else(|| file.file_name().unwrap_or_default().to_owned(), Into::into);
+    let to = folder.join(name);
+    fs::copy(file, &to).map_err(|e| failed(file, &e))?;
+    Ok(to)
+}
+
+/// The npm packages that are published; each is built before it is packed.
+const PACKAGES: [&str; 3] = ["labspec", "elements", "adapters"];
+
+/// Builds and packs the npm packages.
+pub(super) fn npm_tarballs(release: &Release) -> Result<Vec<PathBuf>, String> {
+    (release.scripts)()?;
+    let mut packed = Vec::new();
+    for package in PACKAGES {
+        let folder = release.root.join("web").join(package);
+        for licence in ["LICENSE-MIT", "LICENSE-APACHE"] {
+            copied(&release.root.join(licence), &folder, None)?;
+        }
+        npm(&folder, &["run", "--silent", "build"])?;
+        let out = release.target.join("packed-npm");
+        emptied(&out)?;
+        npm(&folder, &["pack", "--silent", "--pack-destination", &out.display().to_string()])?;
+        for file in files_of(&out)? {
+            packed.push(copied(&file, &release.folder, None)?);
+        }
+    }
+    Ok(packed)
+}
+
+/// Packs the extension of VS Code.
+pub(super) fn editor(release: &Release) -> Result<Vec<PathBuf>, String> {
+    let folder = release.root.join("bindings/vscode");
+    npm(&folder, &["ci", "--no-audit", "--no-fund", "--silent"])?;
+    npm(&folder, &["run", "--silent", "pack"])?;
+    let name = format!("labspec-vscode-{}.vsix", release.version);
+    Ok(vec![copied(&folder.join("labspec.vsix"), &release.folder, Some(name))?])
+}
