@@ -15,6 +15,12 @@ fn a_new_folder_holds_a_lesson_that_is_true() {
     let done = run_in(folder.path(), &["check", "course/lessons", "--deny", "warnings,notes"]);
     assert_eq!(done.code, 0, "{}", done.stdout);
     assert!(done.stdout.contains("1 answer verified, 1 quoted number verified"), "{}", done.stdout);
+    // The workflow checks with the version that has written it.
+    let workflow =
+        std::fs::read_to_string(folder.path().join("course/.github/workflows/labspec.yml")).unwrap();
+    let version = run(&["-V"]).stdout;
+    let version = version.split_whitespace().nth(1).unwrap();
+    assert!(workflow.contains(&format!("uses: labspec/labspec@v{version}\n")), "{workflow}");
     // Existing files are not changed.
     let lesson = folder.path().join("course/lessons/01-fall.md");
     std::fs::write(&lesson, "mine").unwrap();

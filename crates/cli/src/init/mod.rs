@@ -15,7 +15,8 @@ pub(super) struct InitArguments {
     folder: PathBuf,
 }
 
-/// The names and contents of the files that are written.
+/// The names and contents of the files that are written. `VERSION` stands for the version of this program, with which the lessons are
+/// checked until its author changes it.
 const FILES: [(&str, &str); 4] = [
     ("labspec.toml", include_str!("labspec.toml")),
     ("lessons/01-fall.md", include_str!("lesson.md")),
@@ -38,7 +39,7 @@ pub(super) fn init(a: &InitArguments) -> Result<CommandOutcome, Failure> {
         let folder = path.parent().unwrap_or(Path::new("."));
         std::fs::create_dir_all(folder)
             .map_err(|e| format!("cannot make {}: {e}", printable_path(folder)))?;
-        write_file(&path, OutputKind::New, text)?;
+        write_file(&path, OutputKind::New, &text.replace("VERSION", env!("CARGO_PKG_VERSION")))?;
         message.push_str(&format!("wrote {}\n", printable_path(&path)));
     }
     let lessons = a.folder.join("lessons");
