@@ -12,9 +12,10 @@ from ._check import Claim, Finding, Measured, Report, Verification, check
 from ._compare import EngineComparison, EngineRow, compare_engines
 from ._designs import latin_hypercube, sobol
 from ._engine import Data, Model
-from ._lab import Control, Displayed, Lab, Recording
+from ._lab import Control, Lab
 from ._labspec import LabspecError, __VERSION__ as __version__
 from ._mujoco import MujocoLab
+from ._recording import Displayed, Recording, Run
 from ._reports import Fault, Margin, Precision, PrecisionRow, Stability
 from ._sweep import Sweep, sweep
 from ._widget import show
@@ -38,6 +39,7 @@ __all__ = [
     "PrecisionRow",
     "Recording",
     "Report",
+    "Run",
     "Stability",
     "Sweep",
     "Verification",

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -12,8 +11,10 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _html, _labspec
-from ._lab import Lab, Value
+from . import _html
+from ._lab import Lab
+from ._measure import Result, Runs, Work, measure_runs, measure_task
+from ._recording import Value
 from ._stored import StoredSweep
 
 #: Runs that an executor gets at once.
@@ -98,14 +99,9 @@ def sweep(
     )
 
 
-_Work = tuple[dict[str, Any], Any, dict[str, str], float | None]
-_Result = tuple[list[float], str | None]
-_Runs = list[dict[str, Value]]
-
-
 def _finished(
-    work: _Work, runs: _Runs, executor: Any, stored: StoredSweep | None, progress: Callable[[int, int], object] | None
-) -> list[_Result]:
+    work: Work, runs: Runs, executor: Any, stored: StoredSweep | None, progress: Callable[[int, int], object] | None
+) -> list[Result]:
     """The results of all runs, in order. Those of a stored sweep that were written are read."""
     size = _STORED if stored is not None else _CHUNK if executor is not None else len(runs) if progress is None else _STORED
     chunks = [runs[i : i + size] for i in range(0, len(runs), max(size, 1))]
@@ -122,35 +118,19 @@ def _finished(
     return [result for i in range(len(chunks)) for result in found[i]]
 
 
-def _measure(work: _Work, runs: _Runs, workers: int = 1) -> list[_Result]:
-    """Measures runs, in this process."""
-    lab, models, measures, until = work
-    end = {} if until is None else {"until": until}
-
-    def text(run: dict[str, Value]) -> str:
-        verify = {"runs": {"run": {"set": run, **end}}, "measure": measures}
-        return json.dumps({**lab, "verify": verify})
-
-    return _labspec.measure([text(run) for run in runs], models, workers)
-
-
-def _measure_task(task: tuple[_Work, _Runs]) -> list[_Result]:
-    return _measure(*task)
-
-
-def _mapped(executor: Any, work: _Work, chunks: list[_Runs]) -> Iterator[list[_Result]]:
+def _mapped(executor: Any, work: Work, chunks: list[Runs]) -> Iterator[list[Result]]:
     """The results of chunks, in order, as they are finished."""
     tasks = [(work, chunk) for chunk in chunks]
     if executor is None:
-        yield from (_measure(work, chunk, workers=0) for chunk in chunks)
+        yield from (measure_runs(work, chunk, workers=0) for chunk in chunks)
     elif hasattr(executor, "submit"):
-        futures = [executor.submit(_measure_task, task) for task in tasks]
+        futures = [executor.submit(measure_task, task) for task in tasks]
         yield from (future.result() for future in futures)
     elif hasattr(executor, "map"):
-        found = executor.map(_measure_task, tasks)
+        found = executor.map(measure_task, tasks)
         yield from (chunk.result() if hasattr(chunk, "result") else chunk for chunk in found)
     elif hasattr(executor, "n_jobs") and callable(executor):
         # What `joblib.delayed` makes of a call.
-        yield from executor([(_measure_task, (task,), {}) for task in tasks])
+        yield from executor([(measure_task, (task,), {}) for task in tasks])
     else:
         raise TypeError("an executor has `map` or `submit`, or is a `Parallel` of joblib")
