@@ -11,6 +11,7 @@
 from ._check import Claim, Finding, Measured, Report, Verification, check
 from ._compare import EngineComparison, EngineRow, compare_engines
 from ._designs import latin_hypercube, sobol
+from ._effects import Effect, Effects
 from ._engine import Data, Model
 from ._lab import Control, Lab
 from ._labspec import LabspecError, __VERSION__ as __version__
@@ -25,6 +26,8 @@ __all__ = [
     "Control",
     "Data",
     "Displayed",
+    "Effect",
+    "Effects",
     "EngineComparison",
     "EngineRow",
     "Fault",
