@@ -244,6 +244,9 @@ def test_every_number_can_be_drawn(numbers):
 
 
 def test_charts_have_the_same_bytes_in_another_process(swept):
-    code = f"import labspec, sys\nfound = labspec.sweep(labspec.Lab({LAB!r}), {GRID!r}, {MEASURES!r})\nsys.stdout.buffer.write((found.tornado() + found.map('gravity', 'height') + found.parallel()).encode())"
+    code = (
+        f"import labspec, sys\nfound = labspec.sweep(labspec.Lab({LAB!r}), {GRID!r}, {MEASURES!r})\n"
+        "sys.stdout.buffer.write((found.tornado() + found.map('gravity', 'height') + found.parallel()).encode())"
+    )
     other = subprocess.run([sys.executable, "-c", code], capture_output=True, check=True, env={"PYTHONHASHSEED": "7"}).stdout.decode()
     assert other == swept.tornado() + swept.map("gravity", "height") + swept.parallel()
