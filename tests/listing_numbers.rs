@@ -100,6 +100,37 @@ fn a_changed_number_of_the_text_is_unclaimed_again() {
     }
 }
 
+/// Numbers of the text in other units than those of the output; a changed digit is unclaimed again.
+#[test]
+fn units_of_outputs_are_converted() {
+    let units = "# A fall of 950 mm\n\nIt lands after 440.1 ms, or 440 ms. It is at 15.54 km/h then, and that is 432 cm/s.\n";
+    let text = format!("{units}\n{LAB}\n{LISTING}").replace("```python", "It fell 9.5e2 mm.\n\n```python");
+    let Some((report, human)) = check(&text, &["--listings"]) else { return };
+    let (printed, unclaimed) = numbers(&report, &text);
+    assert_eq!(
+        printed,
+        ["950 mm", "440.1 ms", "440 ms", "15.54 km/h", "432 cm/s", "9.5e2 mm"],
+        "{unclaimed:?}"
+    );
+    assert_eq!(unclaimed, [""; 0]);
+    assert!(human.contains("6 numbers in the output of listings"), "{human}");
+    for (right, wrong) in [
+        ("A fall of 950 mm", "A fall of 960 mm"),
+        ("440.1 ms", "440.2 ms"),
+        ("or 440 ms", "or 450 ms"),
+        ("15.54 km/h", "15.55 km/h"),
+        ("432 cm/s", "433 cm/s"),
+        ("432 cm/s", "432 mm/s"),
+        ("9.5e2 mm", "9.6e2 mm"),
+    ] {
+        let planted = text.replacen(right, wrong, 1);
+        let Some((report, _)) = check(&planted, &["--listings"]) else { return };
+        let (printed, _) = numbers(&report, &planted);
+        let number = wrong.trim_start_matches("A fall of ").trim_start_matches("or ");
+        assert!(printed.len() == 5 && !printed.contains(&number.to_string()), "{wrong}: {printed:?}");
+    }
+}
+
 #[test]
 fn nothing_is_claimed_by_an_output_that_differs_or_did_not_run() {
     let text = format!("{TEXT}\n{LAB}\n{LISTING}");

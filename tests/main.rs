@@ -42,6 +42,7 @@ mod ledger;
 mod lessons;
 mod levels;
 mod links;
+mod listing_environments;
 mod listing_lessons;
 mod listing_numbers;
 mod listings;

@@ -11,7 +11,7 @@ cargo clippy --locked --quiet -- -D warnings
 env="$target/python"
 [ -x "$env/bin/python" ] || python3 -m venv "$env"
 install() { "$env/bin/pip" install --quiet --disable-pip-version-check "$@"; }
-install "maturin==1.16.0" "numpy>=1.26" "pytest==9.2.0" "mypy==1.19.0" "gymnasium==1.4.0" "anywidget==0.11.0"
+install "maturin==1.16.0" "numpy>=1.26" "pytest==9.2.0" "pytest-xdist==3.8.0" "uv==0.13.9" "mypy==1.19.0" "gymnasium==1.4.0" "anywidget==0.11.0"
 for package in "mujoco==3.14.0" "pyarrow==26.0.1" "scipy==1.17.1" "joblib==1.6.0" "distributed==2026.8.0" "ray==2.60.0"; do
   install "$package" || { echo "not there for this Python: $package"; [ "${LABSPEC_REQUIRE:-}" != all ]; }
 done

@@ -14,6 +14,7 @@ mod model;
 mod models;
 mod numerics;
 mod program;
+mod recording;
 mod report;
 mod source;
 mod sweep;
@@ -38,6 +39,8 @@ mod _labspec {
     use crate::numerics::{precision, stability};
     #[pymodule_export]
     use crate::program::run_program;
+    #[pymodule_export]
+    use crate::recording::record_run;
     #[pymodule_export]
     use crate::report::{check, listings};
     #[pymodule_export]

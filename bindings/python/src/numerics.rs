@@ -19,15 +19,15 @@ type ReportTexts = (String, Option<String>);
 #[derive(FromPyObject)]
 pub(crate) struct Interactions<'py> {
     #[pyo3(item)]
-    until: Option<f64>,
+    pub(crate) until: Option<f64>,
     #[pyo3(item)]
     set: Vec<(String, Bound<'py, PyAny>)>,
     #[pyo3(item)]
-    press: Vec<(String, f64)>,
+    pub(crate) press: Vec<(String, f64)>,
 }
 
 impl Interactions<'_> {
-    fn values(&self) -> PyResult<Vec<(String, Value)>> {
+    pub(crate) fn values(&self) -> PyResult<Vec<(String, Value)>> {
         self.set.iter().map(|(label, value)| Ok((label.clone(), control_value(value)?))).collect()
     }
 }

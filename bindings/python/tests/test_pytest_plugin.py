@@ -6,7 +6,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
-from conftest import listing_settings
+from conftest import listing_settings, needs
 
 pytest_plugins = ["pytester"]
 SPECS = Path(__file__).resolve().parents[3] / "specs"
@@ -212,3 +212,120 @@ def test_hostile_files_are_collected(listings):
     listings.path.joinpath("empty.md").write_bytes(b"")
     result = listings.runpytest("--labspec-listings", ".")
     assert result.parseoutcomes() == {"passed": 6}
+
+
+def cases(pytester, name="report.xml"):
+    """The outcomes in a report of JUnit, by class and name: "passed", or the element and its text."""
+    found = {}
+    for case in ElementTree.parse(pytester.path / name).iter("testcase"):
+        details = [(child.tag, (child.text or "") + (child.get("message") or "")) for child in case if child.tag in ("failure", "skipped", "error")]
+        found[case.get("classname"), case.get("name")] = details[0] if details else ("passed", "")
+    return found
+
+
+_XML = "<mujoco><worldbody><body name='ball' pos='0 0 1'><freejoint/><geom size='0.1'/></body></worldbody></mujoco>"
+_LAB = {"title": "A fall", "xml": _XML, "stopAt": 0.1, "readouts": [{"label": "height (m)", "expr": "data.qpos[2]"}]}
+
+
+def _question(text, answer):
+    verify = {"lab": "#1", "runs": {"fall": {"until": 0.1}}, "measure": {"end": "final(data.qpos[2])"}, "options": ["fall.end < 0.96", "fall.end > 0.99"]}
+    options = ["It is lower", "It does not move"]
+    return {"kind": "mcq", "q": text, "options": options, "answer": answer, "explain": "It falls.", "verify": verify}
+
+
+@pytest.fixture
+def both(listings):
+    """A lesson with a lab, a quiz and listings: the second of three questions has a wrong key, and the second of three listings another output."""
+    quiz = {"id": "fall", "questions": [_question(f"Where is the ball, {i}?", int(i == 2)) for i in (1, 2, 3)]}
+    blocks = f"```lab simlab\n{json.dumps(_LAB)}\n```\n\n```quiz\n{json.dumps(quiz)}\n```\n"
+    text = LISTINGS.replace("# A fall\n", f"# A fall\n\n{blocks}").replace("v = 4.317 m/s\n```", "v = 4.318 m/s\n```")
+    listings.path.joinpath("fall.md").write_text(text, encoding="utf-8")
+    return listings
+
+
+ALL = ("--labspec", "--labspec-listings", "fall.md")
+
+
+def test_a_report_of_junit_has_every_test_with_its_evidence(both):
+    result = both.runpytest(*ALL, "--junit-xml", "report.xml")
+    outcomes, found = result.parseoutcomes(), cases(both)
+    assert outcomes["failed"] == 2 and len(found) == sum(outcomes[kind] for kind in ("failed", "passed", "skipped") if kind in outcomes)
+    failed = {name: text for name, (kind, text) in found.items() if kind == "failure"}
+    listing = failed.pop(("fall.md", "listing[2]"))
+    assert "the lesson shows `4.318`, the listing prints `4.317`" in listing
+    evidence = failed.pop(("fall.md.quiz[fall]", "2"))
+    assert not failed and "refuted" in evidence and "error[answer-refuted]" in evidence
+    kinds = {name.partition("[")[0] for group, name in found if group == "fall.md"}
+    assert kinds == {"lab", "listing", "text"} and ("fall.md", "listing[3]") in found
+    assert not any(kind == "error" for kind, _text in found.values())
+
+
+def test_selections_and_last_failures_of_both_kinds(both):
+    assert both.runpytest(*ALL, "-k", "listing").parseoutcomes().keys() == {"failed", "passed", "deselected"}
+    quiz = both.runpytest(*ALL, "-k", "quiz and not listing").parseoutcomes()
+    assert (quiz["failed"], quiz["passed"]) == (1, 2)
+    assert runs(both) == "1223", "a listing that differs runs twice, and what is not selected does not run"
+    first = both.runpytest(*ALL).parseoutcomes()
+    assert first["failed"] == 2
+
+    def again(*more):
+        return {kind: n for kind, n in both.runpytest(*ALL, "--lf", *more).parseoutcomes().items() if kind != "deselected"}
+
+    assert again() == {"failed": 2}
+    assert again("-k", "listing") == {"failed": 1}
+    change(both, "v = 4.318", "v = 4.317")
+    assert again() == {"failed": 1, "passed": 1}
+    assert again() == {"failed": 1}
+
+
+def test_two_workers_give_the_same_outcomes(both):
+    needs("xdist")
+    serial = both.runpytest_subprocess(*ALL, "--junit-xml", "serial.xml").parseoutcomes()
+    result = both.runpytest_subprocess(*ALL, "-n", "2", "--junit-xml", "report.xml")
+    assert result.parseoutcomes() == serial and serial["failed"] == 2
+    assert cases(both) == cases(both, "serial.xml") and len(cases(both)) == 8
+    result.stdout.fnmatch_lines_random(["*error[[]listing-output]: the lesson shows `4.318`, the listing prints `4.317`", "*error[[]answer-refuted]*"])
+
+
+def ids(result):
+    """The ids of questions and listings in the summary."""
+    names = [line.split(" ")[1] for line in result.outlines if line.startswith(("FAILED ", "PASSED "))]
+    return [name for name in names if name.startswith(("fall.md::quiz", "fall.md::listing"))]
+
+
+def test_the_summary_names_tests_as_they_are_selected(both):
+    result = both.runpytest(*ALL, "-rfp")
+    found = ids(result)
+    assert sorted(found) == [*(f"fall.md::listing[{n}]" for n in (1, 2, 3)), *(f"fall.md::quiz[fall]::{n}" for n in (1, 2, 3))]
+    again = both.runpytest("--labspec", "--labspec-listings", "-rfp", *found)
+    assert sorted(ids(again)) == sorted(found) and again.parseoutcomes() == {"failed": 2, "passed": len(found) - 2}
+    assert both.runpytest("--labspec", "fall.md::quiz[fall]::2").parseoutcomes() == {"failed": 1}
+    assert both.runpytest("--labspec", "fall.md::quiz[fall]").parseoutcomes() == {"failed": 1, "passed": 2}
+    assert both.runpytest(*ALL, "fall.md::quiz[fall]::2").parseoutcomes() == result.parseoutcomes(), "nothing is tested twice"
+    assert both.runpytest("--labspec", "fall.md::quiz[fall]::27").ret == pytest.ExitCode.USAGE_ERROR
+
+
+def test_two_workers_name_and_select_the_same_tests(both):
+    needs("xdist")
+    found = ids(both.runpytest(*ALL, "-rfp"))
+    parallel = both.runpytest_subprocess("--labspec", "--labspec-listings", "-n", "2", "-rfp", *found)
+    assert sorted(ids(parallel)) == sorted(found) and parallel.parseoutcomes()["failed"] == 2
+
+
+def test_two_workers_select_and_repeat(both):
+    needs("xdist")
+    selected = both.runpytest_subprocess(*ALL, "-n", "2", "-k", "listing").parseoutcomes()
+    assert (selected["failed"], selected["passed"]) == (1, 2)
+    assert both.runpytest_subprocess(*ALL, "-n", "2").parseoutcomes()["failed"] == 2
+    again = both.runpytest_subprocess(*ALL, "-n", "2", "--lf", "--junit-xml", "report.xml").parseoutcomes()
+    assert again == {"failed": 2}
+    assert sorted(name for _group, name in cases(both)) == ["2", "listing[2]"]
+
+
+def test_a_worker_for_each_lesson_runs_its_listings_once(listings):
+    needs("xdist")
+    other = LISTINGS.replace("course.note(1)", "course.note(4)").replace("course.note(2)", "course.note(5)").replace("course.note(3)", "course.note(6)")
+    listings.path.joinpath("other.md").write_text(other, encoding="utf-8")
+    result = listings.runpytest_subprocess("--labspec-listings", "-n", "2", "--dist", "loadfile")
+    assert result.parseoutcomes() == {"passed": 6}
+    assert sorted(runs(listings)) == list("123456")

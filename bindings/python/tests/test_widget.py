@@ -52,3 +52,24 @@ def test_files_outside_of_the_folder_are_not_sent(script, tmp_path):
     assert sorted(widget.models) == ["ball", "part"] and "mujocoinclude" in widget.models["part"]
     opened = labspec.Lab({"model": "ball"}, widget.models)
     assert opened.model.nbody == 2
+
+
+def test_meshes_are_sent_as_buffers(script, tmp_path):
+    remove = needs("ipywidgets.widgets.widget")._remove_buffers
+    models = tmp_path / "models"
+    (models / "shapes").mkdir(parents=True)
+    wedge = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+    (models / "shapes/wedge.obj").write_bytes(wedge)
+    text = (
+        "<mujoco><compiler meshdir='shapes'/><asset><mesh name='wedge' file='wedge.obj'/></asset>"
+        "<worldbody><body><freejoint/><geom type='mesh' mesh='wedge'/></body></worldbody></mujoco>"
+    )
+    (models / "solid.xml").write_text(text, encoding="utf-8")
+    lab = labspec.Lab({"model": "solid"}, models)
+    assert lab.model.nmesh == 1
+    widget = labspec.show(lab, esm=script)
+    assert widget.models == {"solid": text, "shapes/wedge.obj": wedge}
+    # The page gets these bytes as a `DataView` of the message; the widget of web/elements takes them.
+    state, paths, buffers = remove(widget.get_state())
+    assert paths == [["models", "shapes/wedge.obj"]] and [bytes(b) for b in buffers] == [wedge]
+    assert state["models"] == {"solid": text}

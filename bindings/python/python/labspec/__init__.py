@@ -11,10 +11,12 @@
 from ._check import Claim, Finding, Measured, Report, Verification, check
 from ._compare import EngineComparison, EngineRow, compare_engines
 from ._designs import latin_hypercube, sobol
+from ._effects import Effect, Effects
 from ._engine import Data, Model
-from ._lab import Control, Displayed, Lab, Recording
+from ._lab import Control, Lab
 from ._labspec import LabspecError, __VERSION__ as __version__
 from ._mujoco import MujocoLab
+from ._recording import Displayed, Recording, Run
 from ._reports import Fault, Margin, Precision, PrecisionRow, Stability
 from ._sweep import Sweep, sweep
 from ._widget import show
@@ -24,6 +26,8 @@ __all__ = [
     "Control",
     "Data",
     "Displayed",
+    "Effect",
+    "Effects",
     "EngineComparison",
     "EngineRow",
     "Fault",
@@ -38,6 +42,7 @@ __all__ = [
     "PrecisionRow",
     "Recording",
     "Report",
+    "Run",
     "Stability",
     "Sweep",
     "Verification",

@@ -13,9 +13,10 @@ from typing import Any
 from . import _html, _labspec
 from ._check import Finding, Progress, Report, checked, models_near
 from ._engine import Files
-from ._lab import Lab, Value, is_owned
+from ._lab import Lab, is_owned
 from ._labspec import LabspecError
 from ._mujoco import MujocoLab, the_package
+from ._recording import Value
 
 
 @dataclass(frozen=True)

@@ -10,9 +10,14 @@ from html import escape
 _MOST_ROWS = 50
 
 
+def plain(value: object) -> str:
+    """A value as text."""
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
 def text(value: object) -> str:
     """A value as escaped text."""
-    return escape(f"{value:.6g}" if isinstance(value, float) else str(value), quote=True)
+    return escape(plain(value), quote=True)
 
 
 def heading(title: str, *more: str) -> str:

@@ -5,19 +5,16 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
-
-import numpy as np
-from numpy.typing import NDArray
 
 from . import _html, _labspec
 from ._check import Finding, Progress, Report, checked, models_near
 from ._engine import Files, Model
+from ._measure import measure_runs
+from ._recording import Displayed, Recording, Run, Value
 from ._reports import Precision, Stability, precision_of, stability_of
-
-Value = float | str | bool
 
 #: Steps of a run that is drawn for a notebook.
 _MOST_DRAWN = 50_000
@@ -36,53 +33,6 @@ class Control:
     step: float | None = None
     digits: int | None = None
     options: tuple[tuple[str, Value], ...] = ()
-
-
-@dataclass(frozen=True)
-class Displayed:
-    """A trace of a plot, or a readout."""
-
-    label: str
-    unit: str
-    kind: str
-    #: The plot of a trace, from 0.
-    plot: int | None
-    #: The decimals of a readout.
-    digits: int | None
-
-
-@dataclass(frozen=True)
-class Recording:
-    """The displayed values of a run: a row for each sample, a column for each value; NaN where a value is no number."""
-
-    times: NDArray[np.float64]
-    values: NDArray[np.float64]
-    displayed: tuple[Displayed, ...]
-    #: The lab that was recorded.
-    lab: Lab | None = field(default=None, repr=False, compare=False)
-
-    def plots(self) -> tuple[str, ...]:
-        """The plots of the lab as SVG, as ``labspec run --svg`` draws them."""
-        if self.lab is None:
-            return ()
-        rows = np.column_stack([self.times, self.values])
-        return tuple(self.lab._native.draw(np.ascontiguousarray(rows, np.float64).ravel()))
-
-    def _repr_html_(self) -> str:
-        last = zip(self.displayed, self.values[-1] if len(self) else (), strict=False)
-        heading = _html.heading("Recording", f"{len(self)} samples" + (f" until {self.times[-1]:g} s" if len(self) else ""))
-        pictures = "".join(_html.picture(svg, f"plot {i}") for i, svg in enumerate(self.plots(), 1))
-        return heading + pictures + _html.table(["", "at the end", "unit"], [[d.label, float(x), d.unit] for d, x in last])
-
-    def __getitem__(self, label: str) -> NDArray[np.float64]:
-        """The column with this label."""
-        for i, displayed in enumerate(self.displayed):
-            if displayed.label == label:
-                return self.values[:, i]
-        raise KeyError(f'nothing is displayed as "{label}"; use one of {", ".join(d.label for d in self.displayed)}')
-
-    def __len__(self) -> int:
-        return len(self.times)
 
 
 class Lab:
@@ -206,6 +156,42 @@ class Lab:
             raise TypeError("a recording has either `until`, a time, or `steps`")
         _made, rows = self._native.record(steps, every)
         return Recording(rows[:, 0], rows[:, 1:], self.displayed, self)
+
+    def run(
+        self,
+        params: Mapping[str, Value] | None = None,
+        measures: Mapping[str, str] | None = None,
+        *,
+        until: float | None = None,
+        every: int | None = None,
+    ) -> Run:
+        """Runs the lab from its start with these values of its controls, and measures the run, like one point of :func:`labspec.sweep`.
+
+        The run is independent of what was done to this lab, and changes nothing of it. It ends at ``until``, s, or as the lab does. It is recorded
+        every ``every`` steps; by default only if there are no ``measures``. ``lab.run`` can be pickled, so that it can be sent to other processes:
+        ``executor.map(lab.run, points, itertools.repeat(measures))``. A run that cannot be made has an ``error``, and NaN as measures.
+        """
+        values, asked = dict(params or {}), dict(measures or {})
+        error: str | None = None
+        found = dict.fromkeys(asked, float("nan"))
+        if asked:
+            [(numbers, error)] = measure_runs((self.json, self._source[-1], asked, until), [values])
+            found = dict(zip(asked, numbers, strict=True)) if error is None else found
+        recording = None
+        if error is None and (every is not None or not asked):
+            try:
+                recording = self._record_run(values, until, 1 if every is None else every)
+            except _labspec.LabspecError as e:
+                error = str(e)
+        return Run(values, found, error, recording)
+
+    def _record_run(self, params: Mapping[str, Value], until: float | None, every: int) -> Recording:
+        """The samples of a run from the start."""
+        given = {"until": until, "set": list(params.items()), "press": []}
+        rows = _labspec.record_run(self._labelled(), self._source[-1], given, every)
+        # Another thread may use this lab.
+        lab = _opened(self._source)
+        return Recording(rows[:, 0], rows[:, 1:], lab.displayed, lab)
 
     def verify(self, claims: Mapping[str, Any] | None = None, *, progress: Progress | None = None) -> Report:
         """Verifies the claims of the lab, or those of another ``verify`` object about it: runs, measures, conditions and quotes.

@@ -122,6 +122,9 @@ class Evaluator:
 def measure(
     texts: list[str], models: _Files = None, workers: int = 0
 ) -> list[tuple[list[float], str | None]]: ...
+def record_run(
+    source: Mapping[str, str | None], models: _Files, given: Mapping[str, Any], every: int = 1
+) -> NDArray[Any]: ...
 def lab_json(path: str, text: str, address: str) -> str: ...
 def claimed_runs(
     path: str, text: str, models: _Files = None

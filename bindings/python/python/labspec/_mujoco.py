@@ -18,8 +18,9 @@ import numpy as np
 from . import _aggregates
 from ._fields import writable_names
 from ._files import files_of
-from ._lab import Lab, Value
+from ._lab import Lab
 from ._labspec import Evaluator, LabspecError
+from ._recording import Value
 
 #: Warnings of MuJoCo after which it resets the data, and the numbers that are bad.
 _BAD = {"mjWARN_BADQPOS": "qpos", "mjWARN_BADQVEL": "qvel", "mjWARN_BADQACC": "qacc"}

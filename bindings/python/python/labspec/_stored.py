@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import Any
 
 from . import _labspec
-from ._lab import Lab, Value
-
-_Result = tuple[list[float], str | None]
+from ._lab import Lab
+from ._measure import Result
+from ._recording import Value
 
 
 class StoredSweep:
@@ -40,7 +40,7 @@ class StoredSweep:
         else:
             self._replace(plan, lambda path: path.write_text(json.dumps(described, indent=1), encoding="utf-8"))
 
-    def read(self, index: int, runs: list[dict[str, Value]]) -> list[_Result] | None:
+    def read(self, index: int, runs: list[dict[str, Value]]) -> list[Result] | None:
         """The results of a chunk, if they were written completely."""
         path = self._path(index)
         if not path.exists():
@@ -56,7 +56,7 @@ class StoredSweep:
             raise ValueError(f"{path} is no part of this sweep: it has {len(found)} runs, not {len(runs)}")
         return found
 
-    def write(self, index: int, runs: list[dict[str, Value]], results: list[_Result]) -> None:
+    def write(self, index: int, runs: list[dict[str, Value]], results: list[Result]) -> None:
         """Writes a chunk beside, and then puts it in its place."""
         labels = dict.fromkeys(label for run in runs for label in run)
         columns: dict[str, Any] = {label: _column([run.get(label) for run in runs]) for label in labels}

@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import product
 from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _html, _labspec
-from ._lab import Lab, Value
+from . import _charts, _html
+from ._effects import Effects, effects_of, varied
+from ._lab import Lab
+from ._measure import Result, Runs, Work, measure_runs, measure_task
+from ._recording import Value
 from ._stored import StoredSweep
 
+#: Measures with a tornado chart in a notebook, and values on a side of a map there.
+_MOST_TORNADOS, _MOST_CELLS = 3, 50
 #: Runs that an executor gets at once.
 _CHUNK = 16
 #: Runs of a file of a stored sweep, whatever the executor.
@@ -43,6 +47,8 @@ class Sweep:
     params: tuple[Mapping[str, Value], ...]
     values: Mapping[str, NDArray[np.float64]]
     errors: tuple[str | None, ...]
+    #: The values of the controls of the lab at its start, which a run has unless ``params`` name another one.
+    starts: Mapping[str, Value] = field(default_factory=dict, repr=False, compare=False)
 
     def __len__(self) -> int:
         return len(self.params)
@@ -57,12 +63,77 @@ class Sweep:
         controls = {label: [run.get(label) for run in self.params] for label in labels}
         return controls | {name: values.tolist() for name, values in self.values.items()}
 
+    def effects(self, measure: str | None = None, *, base: Mapping[str, Value] | None = None) -> Effects:
+        """How a measure, by default the first one, changes with each control.
+
+        The means of the measure over all runs with the same value of a control are compared; of more than eight numbers, those of four groups. With
+        ``base``, or if all runs differ from the first one in one control at most, only runs that differ from it in this control are compared.
+        """
+        name, settings = self._measure(measure), self._settings()
+        unknown = [label for label in base or {} if label not in self.starts and not any(label in run for run in settings)]
+        if unknown:
+            raise KeyError(f'no run has a value of "{unknown[0]}"')
+        full = {**self.starts, **base} if base is not None else None
+        return effects_of(name, settings, self.values[name].tolist(), full)
+
+    def tornado(self, measure: str | None = None, *, base: Mapping[str, Value] | None = None) -> str:
+        """The effects of all controls as a tornado chart, SVG: a bar for each control, the largest on top."""
+        return _charts.tornado(self.effects(measure, base=base))
+
+    def map(self, x: str, y: str, measure: str | None = None, *, at: Mapping[str, Value] | None = None) -> str:
+        """A measure over the values of two controls as colours, SVG. ``at`` chooses the runs with these values of the other controls."""
+        name, cells = self._measure(measure), {}
+        for run, value, error in zip(self._settings(), self.values[name].tolist(), self.errors, strict=True):
+            if any(run.get(label) != wanted for label, wanted in (at or {}).items()):
+                continue
+            missing = [label for label in (x, y) if label not in run]
+            if missing:
+                raise KeyError(f'no run has a value of "{missing[0]}"')
+            pair = run[x], run[y]
+            if pair in cells:
+                raise ValueError(f"several runs have {x} = {pair[0]} and {y} = {pair[1]}: choose the values of the other controls with `at`")
+            cells[pair] = value, error
+        if not cells:
+            raise ValueError("no run has these values")
+        return _charts.cell_map(x, y, name, cells)
+
+    def parallel(self, *, by: str | None = None) -> str:
+        """All runs as lines over parallel axes, for each control that varies and each measure, SVG. The measure ``by`` gives the colours."""
+        settings, name = self._settings(), self._measure(by)
+        controls = {label: [run.get(label, "?") for run in settings] for label in varied(settings)}
+        return _charts.parallel(controls | {measure: values.tolist() for measure, values in self.values.items()}, name)
+
+    def _measure(self, name: str | None) -> str:
+        if not self.values or name is not None and name not in self.values:
+            raise KeyError(f'the sweep has no measure "{name}"; it has {", ".join(self.values)}' if self.values else "the sweep has no measure")
+        return next(iter(self.values)) if name is None else name
+
+    def _settings(self) -> list[dict[str, Value]]:
+        """The values of the controls of each run, with those of the start."""
+        labels = dict.fromkeys(label for run in self.params for label in run)
+        every = ({label: run.get(label, self.starts.get(label)) for label in labels} for run in self.params)
+        return [{label: value for label, value in run.items() if value is not None} for run in every]
+
     def _repr_html_(self) -> str:
         columns = self.columns()
         failed = sum(error is not None for error in self.errors)
-        return _html.heading("Sweep", f"{len(self)} runs", f"{failed} without measures" if failed else "") + _html.table(
-            list(columns), zip(*columns.values(), strict=True)
-        )
+        heading = _html.heading("Sweep", f"{len(self)} runs", f"{failed} without measures" if failed else "")
+        pictures = "".join(_html.picture(svg, what) for what, svg in self._pictures())
+        return heading + pictures + _html.table(list(columns), zip(*columns.values(), strict=True))
+
+    def _pictures(self) -> Iterator[tuple[str, str]]:
+        """The charts for a notebook, if two controls vary or more."""
+        settings = self._settings()
+        labels = varied(settings)
+        if len(labels) < 2 or not self.values or any(label not in run for run in settings for label in labels):
+            return
+        for name in list(self.values)[:_MOST_TORNADOS]:
+            yield f"effects on {name}", self.tornado(name)
+        pairs = {(run[labels[0]], run[labels[1]]) for run in settings}
+        sides = [len({run[label] for run in settings}) for label in labels]
+        if len(labels) == 2 and len(pairs) == len(self) == sides[0] * sides[1] and max(sides) <= _MOST_CELLS:
+            yield f"map of {next(iter(self.values))}", self.map(labels[0], labels[1])
+        yield "runs on parallel axes", self.parallel()
 
 
 def sweep(
@@ -93,19 +164,14 @@ def sweep(
     results = _finished(work, runs, executor, stored, progress)
     table = np.array([values if error is None else [np.nan] * len(names) for values, error in results], float)
     table = table.reshape(len(runs), len(names))
-    return Sweep(
-        tuple(runs), {name: table[:, i].copy() for i, name in enumerate(names)}, tuple(error for _values, error in results)
-    )
-
-
-_Work = tuple[dict[str, Any], Any, dict[str, str], float | None]
-_Result = tuple[list[float], str | None]
-_Runs = list[dict[str, Value]]
+    starts = {control.label: control.start for control in lab.controls if control.kind != "button"}
+    values = {name: table[:, i].copy() for i, name in enumerate(names)}
+    return Sweep(tuple(runs), values, tuple(error for _values, error in results), starts)
 
 
 def _finished(
-    work: _Work, runs: _Runs, executor: Any, stored: StoredSweep | None, progress: Callable[[int, int], object] | None
-) -> list[_Result]:
+    work: Work, runs: Runs, executor: Any, stored: StoredSweep | None, progress: Callable[[int, int], object] | None
+) -> list[Result]:
     """The results of all runs, in order. Those of a stored sweep that were written are read."""
     size = _STORED if stored is not None else _CHUNK if executor is not None else len(runs) if progress is None else _STORED
     chunks = [runs[i : i + size] for i in range(0, len(runs), max(size, 1))]
@@ -122,35 +188,19 @@ def _finished(
     return [result for i in range(len(chunks)) for result in found[i]]
 
 
-def _measure(work: _Work, runs: _Runs, workers: int = 1) -> list[_Result]:
-    """Measures runs, in this process."""
-    lab, models, measures, until = work
-    end = {} if until is None else {"until": until}
-
-    def text(run: dict[str, Value]) -> str:
-        verify = {"runs": {"run": {"set": run, **end}}, "measure": measures}
-        return json.dumps({**lab, "verify": verify})
-
-    return _labspec.measure([text(run) for run in runs], models, workers)
-
-
-def _measure_task(task: tuple[_Work, _Runs]) -> list[_Result]:
-    return _measure(*task)
-
-
-def _mapped(executor: Any, work: _Work, chunks: list[_Runs]) -> Iterator[list[_Result]]:
+def _mapped(executor: Any, work: Work, chunks: list[Runs]) -> Iterator[list[Result]]:
     """The results of chunks, in order, as they are finished."""
     tasks = [(work, chunk) for chunk in chunks]
     if executor is None:
-        yield from (_measure(work, chunk, workers=0) for chunk in chunks)
+        yield from (measure_runs(work, chunk, workers=0) for chunk in chunks)
     elif hasattr(executor, "submit"):
-        futures = [executor.submit(_measure_task, task) for task in tasks]
+        futures = [executor.submit(measure_task, task) for task in tasks]
         yield from (future.result() for future in futures)
     elif hasattr(executor, "map"):
-        found = executor.map(_measure_task, tasks)
+        found = executor.map(measure_task, tasks)
         yield from (chunk.result() if hasattr(chunk, "result") else chunk for chunk in found)
     elif hasattr(executor, "n_jobs") and callable(executor):
         # What `joblib.delayed` makes of a call.
-        yield from executor([(_measure_task, (task,), {}) for task in tasks])
+        yield from executor([(measure_task, (task,), {}) for task in tasks])
     else:
         raise TypeError("an executor has `map` or `submit`, or is a `Parallel` of joblib")

@@ -16,8 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._engine import Model
-from ._lab import Control, Lab, Value
+from ._lab import Control, Lab
 from ._labspec import LabspecError
+from ._recording import Value
 
 #: What the texts that are added to a lab begin with.
 _OWN = "labspec.gym"

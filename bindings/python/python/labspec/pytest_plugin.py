@@ -16,17 +16,20 @@ import re
 import subprocess
 import sys
 from collections.abc import Iterator
-from dataclasses import fields
+from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any, Literal, TypeVar
 
 import pytest
+from _pytest.junitxml import xml_key
 
 from . import _labspec
 from ._check import Claim, Finding, Report, check
 
 _LAB = re.compile(r'lab (#\S+)(?: "(.*)")?$', re.DOTALL)
 _QUESTION = re.compile(r"quiz (.*), question (\d+)$", re.DOTALL)
+#: The id of the test of a question: file, quiz, number.
+_TEST_OF_QUESTION = re.compile(r"(.+\.md)::(quiz\[.*\])::(\d+)$", re.DOTALL)
 _FAILED = ("false", "unchecked")
 _PROBLEMS = ("error", "warning")
 _Row = TypeVar("_Row", Claim, Finding)
@@ -43,6 +46,34 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addini("labspec_listings", about, type=kind, default=False)
 
 
+def pytest_configure(config: pytest.Config) -> None:
+    """Names the tests of questions in reports."""
+    config.pluginmanager.register(_QuestionNames(config), "labspec-names")
+
+
+class _QuestionNames:
+    """The names of questions in reports. pytest 9.2 reads ``quiz[fall]::2`` as a parameter ``fall]::2``, and would display ``quiz[fall]::2]``."""
+
+    def __init__(self, config: pytest.Config) -> None:
+        self._config = config
+
+    @pytest.hookimpl(wrapper=True)
+    def pytest_runtest_logreport(self, report: pytest.TestReport) -> Iterator[None]:
+        """Names the test in the report of JUnit before it is written there, and in the summary after all others have read its id."""
+        found = _TEST_OF_QUESTION.match(report.nodeid)
+        xml = self._config.stash.get(xml_key, None)
+        if found and xml is not None:
+            reporter: Any = xml.node_reporter(report)
+            owners = [*([xml.prefix] if xml.prefix else []), found[1].replace("/", "."), found[2]]
+            reporter.add_attribute("classname", ".".join(owners))
+            reporter.add_attribute("name", found[3])
+        result = yield
+        identifier: Any = getattr(report, "_id", None)
+        if found and identifier is not None:
+            report._id = replace(identifier, names=(found[2], found[3]), params=None)
+        return result
+
+
 def _collects_listings(config: pytest.Config) -> bool:
     return bool(config.getoption("--labspec-listings") or config.getini("labspec_listings"))
 
@@ -52,6 +83,17 @@ def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Col
     if file_path.suffix != ".md" or not (parent.config.getoption("--labspec") or _collects_listings(parent.config)):
         return None
     return LessonFile.from_parent(parent, path=file_path)
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Keeps one test of a question that was selected twice, with its lesson and by its own name."""
+    seen: set[str] = set()
+    kept = []
+    for item in items:
+        if not isinstance(item, ClaimItem) or item.nodeid not in seen:
+            kept.append(item)
+        seen.add(item.nodeid)
+    items[:] = kept
 
 
 class LessonFile(pytest.File):
@@ -102,6 +144,11 @@ class LessonFile(pytest.File):
                 number = owner.partition("#")[2]
                 yield ListingItem.from_parent(self, name=f"listing[{number}]", owner=owner, lines=(first, last))
 
+    def _selected_questions(self) -> set[str]:
+        """The questions that arguments name: ``lesson.md::quiz[fall]::2``. Everything from the last name before a bracket is one name to pytest."""
+        found = (_TEST_OF_QUESTION.match(argument) for argument in self.config.args)
+        return {f"{match[2]}::{match[3]}" for match in found if match}
+
     def _claims(self) -> Iterator[pytest.Item | pytest.Collector]:
         """Yields a test for each lab, a group for each quiz, and one for the rest of the text."""
         found = self.check(runs=False)
@@ -115,8 +162,12 @@ class LessonFile(pytest.File):
                 quizzes.setdefault(question[1], []).append((question[2], owner))
             else:
                 others.append(owner)
+        selected = self._selected_questions()
         for quiz, questions in quizzes.items():
             yield QuizGroup.from_parent(self, name=f"quiz[{quiz}]", questions=questions)
+            for name, owner in ((f"quiz[{quiz}]::{number}", owner) for number, owner in questions):
+                if name in selected:
+                    yield ClaimItem.from_parent(self, name=name, owners=(owner,))
         if owners or found.findings:
             yield ClaimItem.from_parent(self, name="text", owners=tuple(others), elsewhere=tuple(o for o in owners if o not in others))
 

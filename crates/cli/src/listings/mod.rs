@@ -130,7 +130,9 @@ impl<'c> ListingRunner<'c> {
 /// The interpreter that the settings state, or `python3`.
 fn find_interpreter(settings: &ListingSettings) -> Result<Interpreter, NotRun> {
     if let Some(python) = &settings.python {
-        return Interpreter::describe(&settings.folder.join(python)).map_err(|why| {
+        let path = settings.folder.join(python);
+        let path = if path.is_dir() { path.join("bin/python") } else { path };
+        return Interpreter::describe(&path).map_err(|why| {
             let why = format!("the Python interpreter {python} does not run: {why}");
             (why, "correct `python` under [listings] in labspec.toml".into())
         });
@@ -139,9 +141,10 @@ fn find_interpreter(settings: &ListingSettings) -> Result<Interpreter, NotRun> {
         let why = format!("`python3` does not run: {why}");
         (why, "install Python 3, or name an interpreter: `python` under [listings] in labspec.toml".into())
     })?;
-    match settings.requirements.as_slice() {
-        [] => Ok(found),
-        requirements => environment::with_packages(&found, requirements),
+    match (&settings.project, settings.requirements.as_slice()) {
+        (Some(project), _) => environment::of_project(&found, &settings.folder.join(project)),
+        (None, []) => Ok(found),
+        (None, requirements) => environment::with_packages(&found, requirements),
     }
 }
 

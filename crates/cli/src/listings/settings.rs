@@ -5,7 +5,8 @@ use labspec_finding::nearest;
 use std::path::{Component, Path, PathBuf};
 
 /// The keys of the table.
-pub(crate) const KEYS: [&str; 6] = ["python", "requirements", "files", "seconds", "memory", "network"];
+pub(crate) const KEYS: [&str; 7] =
+    ["python", "requirements", "project", "files", "seconds", "memory", "network"];
 /// The range of the time limit, in seconds.
 const SECONDS: [i64; 2] = [1, 3600];
 /// The range of the memory limit, in MiB.
@@ -16,10 +17,12 @@ const MEMORY: [i64; 2] = [16, 1 << 20];
 pub(crate) struct ListingSettings {
     /// The folder of the settings.
     pub(super) folder: PathBuf,
-    /// The interpreter, relative to that folder.
+    /// The interpreter, or the folder of an environment, relative to that folder.
     pub(super) python: Option<String>,
     /// The packages of an environment that labspec makes.
     pub(super) requirements: Vec<String>,
+    /// The folder of a project of uv, relative to that folder.
+    pub(super) project: Option<String>,
     /// Files and folders that listings share, relative to that folder.
     pub(super) files: Vec<String>,
     pub(super) seconds: u64,
@@ -34,6 +37,7 @@ impl Default for ListingSettings {
             folder: PathBuf::new(),
             python: None,
             requirements: Vec::new(),
+            project: None,
             files: Vec::new(),
             seconds: 60,
             memory: 2048,
@@ -61,6 +65,7 @@ impl ListingSettings {
         let settings = ListingSettings {
             python: text(table, "python")?,
             requirements: texts(table, "requirements")?,
+            project: text(table, "project")?,
             files: texts(table, "files")?,
             seconds: number(table, "seconds", SECONDS, default.seconds)?,
             memory: match table.get("memory").and_then(toml::Value::as_integer) {
@@ -70,8 +75,15 @@ impl ListingSettings {
             network: flag(table, "network")?,
             ..default
         };
-        if settings.python.is_some() && !settings.requirements.is_empty() {
-            return Err("listings: `python` and `requirements` exclude each other; delete one of them".into());
+        let given = [
+            ("python", settings.python.is_some()),
+            ("requirements", !settings.requirements.is_empty()),
+            ("project", settings.project.is_some()),
+        ];
+        let given: Vec<&str> =
+            given.into_iter().filter_map(|(name, is_given)| is_given.then_some(name)).collect();
+        if let [first, second, ..] = given.as_slice() {
+            return Err(format!("listings: `{first}` and `{second}` exclude each other; delete one of them"));
         }
         settings.requirements.iter().try_for_each(|requirement| check_requirement(requirement))?;
         check_files(&settings.files)?;
@@ -84,6 +96,7 @@ impl ListingSettings {
         let mut all: Vec<(&'static str, String)> = Vec::new();
         all.extend(self.python.iter().map(|python| ("listings.python", python.clone())));
         all.extend(self.requirements.iter().map(|name| ("listings.requirements", name.clone())));
+        all.extend(self.project.iter().map(|project| ("listings.project", project.clone())));
         all.extend(self.files.iter().map(|file| ("listings.files", file.clone())));
         if self.seconds != default.seconds {
             all.push(("listings.seconds", self.seconds.to_string()));
@@ -184,6 +197,8 @@ mod tests {
         let packages =
             read("[listings]\nrequirements = [\"mujoco==3.14.0\", \"numpy\"]").unwrap().requirements;
         assert_eq!(packages, ["mujoco==3.14.0", "numpy"]);
+        let project = read("[listings]\nproject = \"course\"").unwrap();
+        assert_eq!(project.lines(), [("listings.project", "course".to_string())]);
     }
 
     #[test]
@@ -202,6 +217,11 @@ mod tests {
         assert!(
             error("[listings]\npython = \"p\"\nrequirements = [\"numpy\"]").contains("exclude each other")
         );
+        assert!(
+            error("[listings]\nproject = \"p\"\nrequirements = [\"numpy\"]")
+                .contains("`requirements` and `project`")
+        );
+        assert!(error("[listings]\nproject = []").contains("a text"));
         for wrong in ["-r file", "--index-url=x", "a @ https://x", "./local", "/local", ""] {
             assert!(
                 error(&format!("[listings]\nrequirements = [\"{wrong}\"]")).contains("is not a package"),

@@ -130,7 +130,7 @@ fn failure_reason(code: i32, errors: &str) -> String {
 fn failure_finding(listing: &Listing<'_>, errors: &str, why: &str) -> Finding {
     let line = line_in_file(errors, listing.path().unwrap_or("")).and_then(|line| line_span(listing, line));
     let help = if why.starts_with("ModuleNotFoundError") {
-        "add the module to `requirements`, or its file to `files`, under [listings] in labspec.toml"
+        "add the module to `requirements` or to the `project`, or its file to `files`, under [listings] in labspec.toml"
     } else if why.starts_with("FileNotFoundError") {
         "add the file to `files` under [listings] in labspec.toml"
     } else if why.starts_with("MemoryError") {

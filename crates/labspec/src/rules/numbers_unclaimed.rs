@@ -8,14 +8,14 @@ use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 use std::collections::HashSet;
 use std::ops::Range;
 
-/// The lesson states numbers with units that no `verify` quotes.
+/// The lesson states numbers with units that no `verify` quotes and no output of a listing has.
 pub const NUMBERS_UNCLAIMED: &Rule = &Rule {
     code: "numbers-unclaimed",
     severity: Severity::Note,
     exceptions: &[],
     layer: Layer::Claim,
-    summary: "the lesson states numbers with units that no `verify` quotes",
-    why: "every check recomputes a quoted number; a number that is not quoted may become wrong when the model changes",
+    summary: "the lesson states numbers with units that neither a `verify` quotes nor the output of a listing has",
+    why: "every check recomputes a quoted number, and `labspec check --listings` the outputs of listings, whose numbers count as claimed (`printedNumber` in reports); any other number may become wrong when the model changes",
     bad: Example::Lesson(
         "It touches the floor after ⟦0.442 s⟧, at 4.43 m/s, and falls 1 m.\n\n```lab simlab\n{\"model\": \"ball\", \"readouts\": [{\"label\": \"height (m)\", \"expr\": \"data.qpos[2]\"}]}\n```\n",
     ),

@@ -26,8 +26,7 @@ export function render({ model, el }: { model: WidgetModel; el: HTMLElement }): 
   const element = lab ?? (document.createElement("lesson-quiz") as LessonQuiz);
   const update = (): void => {
     const models = model.get("models");
-    const own = typeof models === "object" && models !== null ? (models as Models) : null;
-    if (own !== null) element.models = own;
+    if (typeof models === "object" && models !== null) element.models = modelsOf(models);
     if (typeof models === "string") element.setAttribute("models", models);
     const lang = model.get("lang");
     if (typeof lang === "string") element.lang = lang;
@@ -46,6 +45,16 @@ export function render({ model, el }: { model: WidgetModel; el: HTMLElement }): 
       // The model of MyST's themes throws: it has no way to remove a listener. The page drops it with the model.
     }
   };
+}
+
+/** Models as the elements take them. anywidget passes bytes as a `DataView` of a message, of which only these bytes are kept. */
+function modelsOf(given: object): Models {
+  const content = (x: unknown): unknown => {
+    if (x instanceof Uint8Array) return x;
+    if (ArrayBuffer.isView(x)) return new Uint8Array(x.buffer, x.byteOffset, x.byteLength).slice();
+    return x instanceof ArrayBuffer ? new Uint8Array(x) : x;
+  };
+  return Object.fromEntries(Object.entries(given).map(([name, x]) => [name, content(x)])) as Models;
 }
 
 /** Whether a trait has a content: an empty object is the default of a trait that nobody has set. */

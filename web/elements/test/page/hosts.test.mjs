@@ -83,6 +83,38 @@ test("the one file is a widget", async (t) => {
   errors.none();
 });
 
+test("a widget has meshes and pictures as anywidget passes bytes: as a DataView of a message", async (t) => {
+  const { page, errors } = await open(t, `${server.url}/widget.html`);
+  const wedge = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  const xml = "<mujoco><compiler meshdir='shapes'/><asset><mesh name='wedge' file='wedge.obj'/></asset><worldbody><body name='bob' pos='0 0 1'><freejoint name='fall'/><geom type='mesh' mesh='wedge'/></body></worldbody></mujoco>";
+  const masses = await page.evaluate(async ([json, xml, wedge]) => {
+    const { default: widget } = await import("/web/elements/dist/labspec-elements.js");
+    const bytes = new TextEncoder().encode(wedge);
+    const message = Uint8Array.from([...new TextEncoder().encode("other "), ...bytes, 0, 255]);
+    const lab = { ...json, readouts: [{ label: "mass (kg)", expr: "model.body_mass[1]" }] };
+    const kinds = { DataView: new DataView(message.buffer, 6, bytes.length), Uint8Array: bytes, ArrayBuffer: bytes.slice().buffer, Uint16Array: new Uint16Array(bytes.slice().buffer) };
+    const found = {};
+    for (const [kind, content] of Object.entries(kinds)) {
+      const traits = { lab, models: { drop: xml, "shapes/wedge.obj": content } };
+      const el = document.querySelector("#host");
+      const leave = widget.render({ model: { get: (name) => traits[name] }, el });
+      const element = el.querySelector("sim-lab");
+      await element.step(5);
+      found[kind] = [element.numbers.at(-1), element.models["shapes/wedge.obj"].byteLength, element.models["shapes/wedge.obj"].buffer.byteLength];
+      leave();
+    }
+    return found;
+  }, [{ ...dropLab, plots: [] }, xml, wedge]);
+  const bytes = wedge.length;
+  // A tetrahedron of 1/6 m³ with the density of water; a message is not kept.
+  for (const [kind, [mass, length, kept]] of Object.entries(masses)) {
+    assert.ok(Math.abs(mass - 1000 / 6) < 1e-6, `${kind}: ${mass}`);
+    assert.deepEqual([length, kept], [bytes, bytes], kind);
+  }
+  assert.equal(Object.keys(masses).length, 4);
+  errors.none();
+});
+
 test("forty labs on a page: those that are seen play, the others wait, none loses its picture", async (t) => {
   const { page, errors } = await open(t, `${server.url}/many.html`);
   await opened(page, "#lab0");

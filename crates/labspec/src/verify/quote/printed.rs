@@ -1,8 +1,8 @@
 //! Numbers of the text that a displayed output has.
 //!
 //! A number is claimed by an output only if a coincidence is unlikely: it has two significant digits and the unit of the printed
-//! number, or three if the output prints no unit. It must be a rounding of the printed number, and not a value halfway, because
-//! the displayed number may be rounded itself.
+//! number, or three if the output prints no unit. Another unit of the same dimension is converted: `0.45 s` is `450 ms`. It must
+//! be a rounding of the printed number, and not a value halfway, because the displayed number may be rounded itself.
 
 use super::fold;
 use super::number::{NumberForm, Quoted};
@@ -134,42 +134,60 @@ fn printed_dimension(chars: Chars<'_>, q: &Quantity) -> Option<Option<Dimension>
     }
 }
 
-/// Whether a number of the text is the printed one, rounded, with the same unit.
+/// Whether a number of the text is the printed one in its unit, rounded.
 fn is_claimed_by(lesson: &Lesson, s: &Stated, number: &OutputNumber) -> bool {
     let (read, printed) = (&s.read, &number.quoted);
-    let digits = match number.dimension {
-        Some(dimension) if dimension == s.dimension => MIN_DIGITS[0],
-        Some(_) => return false,
-        None => MIN_DIGITS[1],
+    let (factor, digits) = match &number.dimension {
+        Some(dimension) => match factor_between(dimension, &s.dimension) {
+            Some(factor) => (factor, MIN_DIGITS[0]),
+            None => return false,
+        },
+        None => (1.0, MIN_DIGITS[1]),
     };
-    let is_same_form = match (read.form, printed.form) {
+    // Shares are fractions of one, whatever their unit.
+    let (is_same_form, factor) = match (read.form, printed.form) {
+        // `1,500` is 1.5 in some languages.
         (NumberForm::Plain(style), NumberForm::Plain(_)) => {
-            // `1,500` is 1.5 in some languages.
-            style.group != Some(',') || lesson.conventions.languages.decimal_comma() == Some(false)
+            (style.group != Some(',') || lesson.conventions.languages.decimal_comma() == Some(false), factor)
         }
-        (NumberForm::Share, NumberForm::Share) => true,
-        _ => false,
+        (NumberForm::Share, NumberForm::Share) => (true, 1.0),
+        _ => (false, factor),
     };
-    let difference = (read.value - printed.value).abs();
-    let is_equal = difference <= 1e-9 * read.half_unit;
-    let is_rounded = difference < read.half_unit * (1.0 - 1e-6);
-    is_same_form
-        && significant_digits(read) >= digits
-        && printed.half_unit <= read.half_unit * (1.0 + 1e-6)
-        && (is_equal || is_rounded)
+    let (value, half_unit) = (printed.value * factor, printed.half_unit * factor * (1.0 - 1e-6));
+    let difference = (read.value - value).abs();
+    let zeros = 10f64.powi(insignificant_zeros(read));
+    let is_equal =
+        difference <= 1e-9 * read.half_unit + 1e-12 * value.abs() && half_unit <= read.half_unit * zeros;
+    let is_rounded = difference < read.half_unit * (1.0 - 1e-6) && half_unit <= read.half_unit;
+    is_same_form && significant_digits(read) >= digits && (is_equal || is_rounded)
 }
 
-/// The number of significant digits. Zeros at the end of a whole number are not significant: `500` has one digit.
-fn significant_digits(number: &Quoted) -> usize {
+/// The factor that converts a number from a unit to another one; `None` if they measure different quantities. An angle is not
+/// omitted: 1 Hz is not 1 rad/s.
+fn factor_between(from: &Dimension, to: &Dimension) -> Option<f64> {
+    let factor = to.factor / from.factor;
+    let is_same_quantity = from.agrees(to) && from.angle() == to.angle();
+    (is_same_quantity && factor.is_finite() && factor > 0.0).then_some(factor)
+}
+
+/// The digits of a number without the point.
+fn digits_of(number: &Quoted) -> String {
     let units = (number.value.abs() / (2.0 * number.half_unit)).round();
-    if !(1.0..1e18).contains(&units) {
-        return 0;
-    }
-    let digits = format!("{units:.0}");
+    if (1.0..1e18).contains(&units) { format!("{units:.0}") } else { String::new() }
+}
+
+/// The number of zeros at the end of a whole number: `500` has two. They are not significant.
+fn insignificant_zeros(number: &Quoted) -> i32 {
+    let digits = digits_of(number);
     match number.decimals == 0 && number.exponent == 0 {
-        true => digits.trim_end_matches('0').len(),
-        false => digits.len(),
+        true => (digits.len() - digits.trim_end_matches('0').len()) as i32,
+        false => 0,
     }
+}
+
+/// The number of significant digits: `500` has one digit.
+fn significant_digits(number: &Quoted) -> usize {
+    digits_of(number).len() - insignificant_zeros(number) as usize
 }
 
 #[cfg(test)]
@@ -223,6 +241,34 @@ mod tests {
             "0.44 to 0.50 s", // a range
         ] {
             assert_eq!(claimed_by(OUTPUT, &format!("It is {wrong}.\n")), [""; 0], "{wrong}");
+        }
+    }
+
+    /// Each text with a number in another unit than the output, and changes of a digit, of the precision, or of the unit.
+    #[test]
+    fn units_are_converted() {
+        let cases: [(&str, &str, &[&str]); 15] = [
+            ("0.45 s", "450 ms", &["451 ms", "440 ms", "550 ms", "450 μs", "450.0 ms", "450 mm"]),
+            ("0.4401 s", "440.1 ms", &["440.2 ms", "441.1 ms", "540.1 ms", "440.10 ms"]),
+            ("0.4401 s", "440 ms", &["441 ms", "430 ms"]),
+            ("450 ms", "0.450 s", &["0.451 s", "0.4500 s", "0.460 s"]),
+            ("450 ms", "0.45 s", &["0.46 s", "0.5 s"]),
+            ("0.83 mm", "8.3e-4 m", &["8.4e-4 m", "8.3e-3 m"]),
+            ("4.317 m/s", "15.54 km/h", &["15.55 km/h", "15.53 km/h", "15.541 km/h"]),
+            ("0.785 rad", "45.0°", &["45.1°", "44.9°", "44.98 °"]),
+            ("12.5 N m", "12.5 J", &["12.6 J"]),
+            ("5400 s", "1.5 h", &["1.6 h", "15 h"]),
+            ("0.445 kg", "445 g", &["446 g", "44 g", "445 mg"]),
+            ("2.5e3 Pa", "2.5 kPa", &["2.4 kPa", "2.50 kPa"]),
+            ("94.2%", "942 ‰", &["943 ‰", "94.2 ‰"]),
+            ("30.0 rpm", "3.1 rad/s", &["3.2 rad/s", "3.14 rad/s"]),
+            ("2.54 s^-1", "2.54 Hz", &["2.54 rad/s", "2.55 Hz"]),
+        ];
+        for (output, right, wrong) in cases {
+            assert_eq!(claimed_by(output, &format!("It is {right}.\n")), [right], "{output}");
+            for wrong in wrong {
+                assert_eq!(claimed_by(output, &format!("It is {wrong}.\n")), [""; 0], "{output}: {wrong}");
+            }
         }
     }
 
