@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { mkdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import test, { after } from "node:test";
-import { course, findings, folder, labspec, launch, open, opened, repository, serve } from "./pages.mjs";
+import { chromiumOnly, course, findings, folder, labspec, launch, open, opened, repository, serve } from "./pages.mjs";
 
 const HOSTILE = `# Odd <script>window.broken = 1</script>
 
@@ -114,7 +114,7 @@ test("without scripts, a lab is its twin, and a quiz its questions", async (t) =
   assert.ok(await page.locator(".verified").first().isVisible());
 });
 
-test("on paper, the twin replaces the lab", async (t) => {
+test("on paper, the twin replaces the lab", chromiumOnly("WebDriver BiDi cannot emulate print"), async (t) => {
   const { page } = await open(t, browser, `${site}02-bounce-and-swing.html`);
   await opened(page, "#lab-1");
   const twin = page.locator(".twin").first();
