@@ -9,7 +9,7 @@ import { dirname, extname, join, normalize } from "node:path";
 import { fileURLToPath } from "node:url";
 import { collectErrors, newContext } from "../../elements/test/browser.mjs";
 
-export { chromiumOnly, launch } from "../../elements/test/browser.mjs";
+export { chromiumOnly, isChromium, launch } from "../../elements/test/browser.mjs";
 
 export const root = join(dirname(fileURLToPath(import.meta.url)), "..");
 export const repository = join(root, "../..");
