@@ -105,7 +105,7 @@ test("a block is edited in place, and a change from elsewhere is not overwritten
   assert.match(await area.innerText(), /^A contact can be made/);
   await write(page, area, "Other first words.");
   await page.getByRole("button", { name: "Save" }).click();
-  await page.getByText("Other first words.").waitFor();
+  await page.locator("p", { hasText: "Other first words." }).first().waitFor();
   assert.match(readFileSync(file, "utf8"), /^# Bounce and swing\n\nOther first words\.\n\n## A ball/);
   await checked(page);
   await block.getByRole("button", { name: /^Edit/ }).click();
