@@ -4,7 +4,7 @@ import { execFileSync } from "node:child_process";
 import { copyFileSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
-import { gzipSync } from "node:zlib";
+import { compressed } from "../labspec/compress.mjs";
 
 const root = dirname(fileURLToPath(import.meta.url));
 const at = (...parts) => join(root, ...parts);
@@ -25,13 +25,28 @@ const styles = {
   }),
 };
 
+/** Classes of the package that the engine of labs never constructs. A bundler keeps them, because methods that nothing calls name them. */
+const UNUSED = ["RawData", "RawExpression", "RawModel", "Model"];
+const withoutUnused = {
+  name: "without unused",
+  setup: (b) => b.onLoad({ filter: /labspec[/\\]dist[/\\]core\.js$/ }, ({ path }) => {
+    let text = readFileSync(path, "utf8");
+    for (const name of UNUSED) {
+      const written = new RegExp(`^var ${name} = class[^{\\n]*\\{\\n[^]*?\\n\\};\\n(if \\(Symbol\\.dispose\\) ${name}\\..*\\n)?`, "m");
+      if (!written.test(text)) throw new Error(`${path} has no class ${name}`);
+      text = text.replace(written, `var ${name} = class {};\n`);
+    }
+    return { contents: text, loader: "js" };
+  }),
+};
+
 /** The engine as a program that uses nothing but `channel`. */
 async function engine() {
-  const { outputFiles } = await build({ ...common, entryPoints: [at("src/entry/engine.ts")], format: "iife" });
+  const { outputFiles } = await build({ ...common, entryPoints: [at("src/entry/engine.ts")], format: "iife", plugins: [withoutUnused] });
   return outputFiles[0].text;
 }
 
-const [program, packed] = [await engine(), gzipSync(readFileSync(wasm), { level: 9 }).toString("base64")];
+const [program, packed] = [await engine(), (await compressed(at("../labspec/generated/player/labspec_bg.wasm"))).toString("base64")];
 const made = {
   name: "made",
   setup(b) {

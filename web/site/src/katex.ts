@@ -22,11 +22,20 @@ function withStyles(work: () => void): void {
   }
 }
 
+/** Elements of MathML whose number of children is fixed. */
+const FIXED = ["msub", "msup", "msubsup", "munder", "mover", "munderover", "mfrac", "mroot"];
+
+/** KaTeX writes `h_{\max}` with the sign of a function application as a third child of the index, which no browser can place. */
+function removeApplications(formula: Element): void {
+  for (const sign of formula.querySelectorAll(FIXED.map((name) => `${name} > mo`).join())) if (sign.textContent === "\u2061") sign.remove();
+}
+
 /** Draws a formula in an element. A formula with a mistake stays as text, with the reason. */
 export function drawFormula(tex: string, into: HTMLElement, isDisplay: boolean): void {
   const drawn = document.createElement("span");
   try {
     withStyles(() => katex.render(tex, drawn, { displayMode: isDisplay, throwOnError: true, trust: false, strict: "ignore", ...LIMITS }));
+    removeApplications(drawn);
     into.replaceChildren(...drawn.childNodes);
   } catch (e) {
     into.classList.add("math-wrong");

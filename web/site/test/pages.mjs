@@ -1,4 +1,4 @@
-// What the tests in Chromium share: the program, servers, pages, and what goes wrong in them.
+// What the tests of pages share: the program, servers, pages, and what goes wrong in them.
 import assert from "node:assert/strict";
 import { spawn, spawnSync } from "node:child_process";
 import { cpSync, existsSync, mkdtempSync, readFileSync, rmSync, statSync } from "node:fs";
@@ -7,7 +7,9 @@ import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { dirname, extname, join, normalize } from "node:path";
 import { fileURLToPath } from "node:url";
-import { chromium } from "playwright-core";
+import { collectErrors, newContext } from "../../elements/test/browser.mjs";
+
+export { chromiumOnly, isChromium, launch } from "../../elements/test/browser.mjs";
 
 export const root = join(dirname(fileURLToPath(import.meta.url)), "..");
 export const repository = join(root, "../..");
@@ -72,23 +74,12 @@ export async function serve(t, path) {
   return { url: `http://127.0.0.1:${server.address().port}/`, close };
 }
 
-/** Chromium, as Debian has it. */
-export function launch() {
-  const executablePath = process.env.CHROMIUM ?? ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find(existsSync);
-  return chromium.launch({ executablePath, args: ["--no-sandbox", "--enable-unsafe-swiftshader"] });
-}
-
 /** Opens a page; nothing may be said on its console. */
 export async function open(t, browser, url, options = {}) {
-  const context = await browser.newContext(options);
+  const context = await newContext(browser, options);
   t.after(() => context.close());
   const page = await context.newPage();
-  const errors = [];
-  page.on("pageerror", (e) => errors.push(e.message));
-  page.on("console", (message) => {
-    const isDriver = message.text().includes("GL Driver Message");
-    if (!isDriver && ["error", "warning"].includes(message.type())) errors.push(message.text());
-  });
+  const errors = collectErrors(page);
   await page.goto(url);
   return { page, context, errors, none: () => assert.deepEqual(errors, []) };
 }

@@ -18,6 +18,13 @@ function change(file, from, to) {
 /** Waits until the page shows the checked text of the file. */
 const checked = (page) => page.waitForFunction(() => document.querySelector("main").dataset.checked === "true");
 
+/** Replaces what is in the editor, by keys. */
+async function write(page, area, text) {
+  await area.click();
+  await page.keyboard.press("Control+a");
+  await page.keyboard.type(text);
+}
+
 async function start(t, lesson) {
   const lessons = course(t);
   const url = await preview(t, lessons);
@@ -96,13 +103,13 @@ test("a block is edited in place, and a change from elsewhere is not overwritten
   await block.getByRole("button", { name: /^Edit/ }).click();
   const area = page.getByRole("textbox", { name: "Source of this block" });
   assert.match(await area.innerText(), /^A contact can be made/);
-  await area.fill("Other first words.");
+  await write(page, area, "Other first words.");
   await page.getByRole("button", { name: "Save" }).click();
-  await page.getByText("Other first words.").waitFor();
+  await page.locator("p", { hasText: "Other first words." }).first().waitFor();
   assert.match(readFileSync(file, "utf8"), /^# Bounce and swing\n\nOther first words\.\n\n## A ball/);
   await checked(page);
   await block.getByRole("button", { name: /^Edit/ }).click();
-  await area.fill("Mine.");
+  await write(page, area, "Mine.");
   change(file, "Other first words.", "Theirs.");
   await page.locator("p", { hasText: "Theirs." }).first().waitFor();
   // What was typed is still there, and is not written over the other change.

@@ -1,10 +1,10 @@
-// What the trials in Chromium share: servers, pages, and what a reader does with a lab and a quiz.
+// What the trials in a browser share: servers, pages, and what a reader does with a lab and a quiz.
 import assert from "node:assert/strict";
 import { existsSync, mkdtempSync, readFileSync, rmSync, statSync } from "node:fs";
 import { createServer } from "node:http";
 import { tmpdir } from "node:os";
 import { extname, join, normalize } from "node:path";
-import { chromium } from "playwright-core";
+import * as driver from "../../../elements/test/browser.mjs";
 import { root } from "../tools.mjs";
 
 /** The one file of the elements. */
@@ -38,10 +38,9 @@ export async function serve(t, ...folders) {
   return `http://127.0.0.1:${server.address().port}/`;
 }
 
-/** Chromium, as Debian has it. */
+/** Starts the browser of the tests. */
 export async function launch(t) {
-  const executablePath = process.env.CHROMIUM ?? ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find(existsSync);
-  const browser = await chromium.launch({ executablePath, args: ["--no-sandbox", "--enable-unsafe-swiftshader"] });
+  const browser = await driver.launch();
   t.after(() => browser.close());
   return browser;
 }

@@ -1,7 +1,7 @@
 // Grades: a page around the quiz records the messages of SPLICE that it gets, and gives a state back.
 import assert from "node:assert/strict";
 import test, { after } from "node:test";
-import { launch, pageOf, serve, watchErrors } from "./site.mjs";
+import { launch, newContext, pageOf, serve, watchErrors } from "./site.mjs";
 import { load } from "../load.mjs";
 
 const first = { id: "one", questions: [{ q: "A?", options: ["a", "b"], answer: 0 }, { kind: "numeric", q: "B?", answer: 2 }, { kind: "open", q: "C?" }] };
@@ -27,7 +27,7 @@ after(async () => {
 });
 
 async function open(t, path) {
-  const context = await browser.newContext();
+  const context = await newContext(browser);
   t.after(() => context.close());
   const page = await context.newPage();
   const errors = watchErrors(page);

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import test, { after } from "node:test";
-import { labOf, launch, opened, pageOf, repository, serve, watchErrors } from "./site.mjs";
+import { labOf, launch, newContext, opened, pageOf, repository, serve, watchErrors } from "./site.mjs";
 
 const spring = readFileSync(join(repository, "specs/models/spring.xml"), "utf8");
 const stretch = { label: "stretch (m)", expr: "data.joint('stretch').qpos[0]" };
@@ -20,7 +20,7 @@ after(async () => {
 });
 
 async function open(t, path) {
-  const context = await browser.newContext();
+  const context = await newContext(browser);
   t.after(() => context.close());
   const page = await context.newPage();
   const errors = watchErrors(page);

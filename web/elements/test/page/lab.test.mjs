@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import test, { after } from "node:test";
 import { Lab } from "labspec";
-import { drop, dropLab, labOf, launch, opened, pageOf, repository, serve, watchErrors } from "./site.mjs";
+import { chromiumOnly, drop, dropLab, labOf, launch, launchWithoutWebGl, newContext, opened, pageOf, repository, serve, watchErrors } from "./site.mjs";
 
 const boxes = Array.from({ length: 27 }, (_, i) => `<body pos='${(i % 3) * 0.19} ${(Math.floor(i / 3) % 3) * 0.19} ${0.11 + Math.floor(i / 9) * 0.21}'><freejoint/><geom type='box' size='.1 .1 .1'/></body>`).join("");
 const pile = `<mujoco><option timestep='0.00005'/><worldbody><geom type='plane' size='5 5 1'/>${boxes}</worldbody></mujoco>`;
@@ -30,7 +30,7 @@ after(async () => {
 
 /** A page with its errors, closed after the test. */
 async function open(t, path, options = {}) {
-  const context = await browser.newContext(options);
+  const context = await newContext(browser, options);
   t.after(() => context.close());
   const page = await context.newPage();
   const errors = watchErrors(page);
@@ -254,7 +254,7 @@ test("a call that is refused is refused to its caller, is said, and the lab goes
   errors.none();
 });
 
-test("print shows the lab without what only a screen can use", async (t) => {
+test("print shows the lab without what only a screen can use", chromiumOnly("WebDriver BiDi cannot emulate print"), async (t) => {
   const { page, errors } = await open(t, "/drop.html");
   await opened(page);
   await page.emulateMedia({ media: "print" });
@@ -263,7 +263,7 @@ test("print shows the lab without what only a screen can use", async (t) => {
 });
 
 test("without WebGL, a lab says so and works", async (t) => {
-  const blind = await launch(["--disable-gpu", "--disable-software-rasterizer", "--disable-3d-apis"]);
+  const blind = await launchWithoutWebGl();
   t.after(() => blind.close());
   const page = await blind.newPage();
   const errors = watchErrors(page);

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import test, { after } from "node:test";
 import { png } from "./png.mjs";
-import { drop, dropLab, labOf, launch, opened, pageOf, serve, watchErrors } from "./site.mjs";
+import { drop, dropLab, labOf, launch, newContext, opened, pageOf, serve, watchErrors } from "./site.mjs";
 import { load } from "../load.mjs";
 
 const { contentHash } = await load("proof/verified.ts");
@@ -49,7 +49,7 @@ after(async () => {
 });
 
 async function open(t, path) {
-  const context = await browser.newContext();
+  const context = await newContext(browser);
   t.after(() => context.close());
   const page = await context.newPage();
   const errors = watchErrors(page);

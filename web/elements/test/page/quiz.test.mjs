@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { createHash } from "node:crypto";
 import test, { after } from "node:test";
-import { drop, launch, pageOf, serve, watchErrors } from "./site.mjs";
+import { drop, launch, newContext, pageOf, serve, watchErrors } from "./site.mjs";
 
 const digest = createHash("sha256").update("grain:1").digest("hex");
 const quiz = {
@@ -28,7 +28,7 @@ after(async () => {
 });
 
 async function open(t, options = {}) {
-  const context = await browser.newContext(options);
+  const context = await newContext(browser, options);
   t.after(() => context.close());
   const page = await context.newPage();
   const errors = watchErrors(page);

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import test, { after } from "node:test";
 import { load } from "../load.mjs";
-import { launch, pageOf, serve, watchErrors } from "./site.mjs";
+import { launch, newContext, pageOf, serve, watchErrors } from "./site.mjs";
 
 const first = { id: "one", questions: [{ q: "A?", options: ["a", "b"], answer: 0 }, { kind: "numeric", q: "B?", answer: 2 }, { kind: "open", q: "C?" }] };
 const second = { id: "two", questions: [{ kind: "truefalse", q: "D?", answer: false }] };
@@ -103,7 +103,7 @@ after(async () => {
 });
 
 async function open(t, path) {
-  const context = await browser.newContext();
+  const context = await newContext(browser);
   t.after(() => context.close());
   const page = await context.newPage();
   const errors = watchErrors(page);

@@ -1,10 +1,12 @@
-// What the tests in Chromium share: a server of the repository, pages, and what goes wrong in them.
+// What the tests of pages share: a server of the repository, pages, and what goes wrong in them.
 import assert from "node:assert/strict";
 import { existsSync, readFileSync, statSync } from "node:fs";
 import { createServer } from "node:http";
 import { dirname, extname, join, normalize } from "node:path";
 import { fileURLToPath } from "node:url";
-import { chromium } from "playwright-core";
+import { collectErrors } from "../browser.mjs";
+
+export { chromiumOnly, isChromium, launch, launchWithoutWebGl, newContext, saveFile } from "../browser.mjs";
 
 export const root = join(dirname(fileURLToPath(import.meta.url)), "../..");
 export const repository = join(root, "../..");
@@ -24,20 +26,9 @@ export async function serve(pages = {}, headers = {}) {
   return { url: `http://127.0.0.1:${server.address().port}`, pages, close: () => server.close() };
 }
 
-/** Chromium, as Debian has it. */
-export function launch(args = ["--enable-unsafe-swiftshader"]) {
-  const executablePath = process.env.CHROMIUM ?? ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find(existsSync);
-  return chromium.launch({ executablePath, args: ["--no-sandbox", ...args] });
-}
-
 /** Errors of a page: nothing may be said on its console. */
 export function watchErrors(page) {
-  const errors = [];
-  page.on("pageerror", (e) => errors.push(e.message));
-  page.on("console", (message) => {
-    const isDriver = message.text().includes("GL Driver Message");
-    if (!isDriver && (message.type() === "error" || message.type() === "warning")) errors.push(message.text());
-  });
+  const errors = collectErrors(page);
   return { none: () => assert.deepEqual(errors, []), errors };
 }
 

@@ -6,11 +6,11 @@ import { join } from "node:path";
 import test, { after } from "node:test";
 import { deflateRawSync } from "node:zlib";
 import { zipSync } from "fflate";
-import { launch, serve, watchErrors } from "./site.mjs";
+import { launch, newContext, serve, watchErrors } from "./site.mjs";
 
 const server = await serve();
 const browser = await launch();
-const context = await browser.newContext({ permissions: ["clipboard-read", "clipboard-write"], viewport: { width: 1280, height: 1000 } });
+const context = await newContext(browser, { permissions: ["clipboard-read", "clipboard-write"], viewport: { width: 1280, height: 1000 } });
 const axe = readFileSync(new URL("../../../node_modules/axe-core/axe.min.js", import.meta.url), "utf8");
 after(async () => {
   await browser.close();
@@ -28,7 +28,7 @@ const DROP = link({ lab, models: { drop }, model: "drop" });
 
 /** A page of the playground with its errors. `DROP` is opened where no address is given. */
 async function open(t, address = `/${DROP}`, options = null) {
-  const own = options === null ? context : await browser.newContext(options);
+  const own = options === null ? context : await newContext(browser, options);
   const page = await own.newPage();
   t.after(() => (options === null ? page.close() : own.close()));
   page.setDefaultTimeout(15_000);

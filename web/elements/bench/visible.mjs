@@ -1,0 +1,82 @@
+// From navigation to the first picture of a lab, with its parts, in Chromium: `node bench/visible.mjs [SCRIPT…] [--runs=9]`. The pages are the first labs of
+// the example lessons with the one file. Every run has a new browser context, so that nothing is cached; several scripts take turns. Medians are
+// printed. The parts overlap: each is the time at which something is done, in ms after the navigation.
+import { readFileSync, readdirSync } from "node:fs";
+import { join } from "node:path";
+import { launch, pageOf, repository, serve } from "../test/page/site.mjs";
+
+const given = process.argv.slice(2);
+const runs = Number(given.find((argument) => argument.startsWith("--runs="))?.slice(7) ?? 9);
+const named = given.filter((argument) => !argument.startsWith("--"));
+const scripts = named.length > 0 ? named : ["/web/elements/dist/labspec-elements.js"];
+
+/** Marks of a page: functions of the browser that the elements call are wrapped. */
+function watch() {
+  const marks = globalThis.marks = {};
+  const mark = (name) => { marks[name] ??= performance.now(); };
+  const { define } = customElements;
+  customElements.define = function (...args) {
+    mark("script runs");
+    return define.apply(this, args);
+  };
+  const { compileStreaming } = WebAssembly;
+  WebAssembly.compileStreaming = (response) => {
+    mark("compiling begins");
+    return compileStreaming(response).finally(() => mark("module compiled"));
+  };
+  const { Worker } = globalThis;
+  globalThis.Worker = class extends Worker {
+    constructor(...args) {
+      super(...args);
+      mark("worker asked for");
+      this.addEventListener("message", ({ data }) => mark(data === "ready" ? "engine ready" : "lab opened"));
+    }
+  };
+  addEventListener("lab-ready", () => {
+    mark("lab on the page");
+    requestAnimationFrame(look);
+  });
+  // A copy is read: reading a canvas itself would change how the browser draws it.
+  const copy = new OffscreenCanvas(1, 1).getContext("2d", { willReadFrequently: true });
+  const look = () => {
+    const canvas = document.querySelector("sim-lab").shadowRoot.querySelector(".view canvas");
+    if (canvas.width > 0) copy.drawImage(canvas, canvas.width >> 1, canvas.height - 4, 1, 1, 0, 0, 1, 1);
+    if (copy.getImageData(0, 0, 1, 1).data[3] === 0) return requestAnimationFrame(look);
+    mark("picture");
+    const script = performance.getEntriesByType("resource").find(({ name }) => name.endsWith("elements.js"));
+    marks["script fetched"] = script.responseEnd;
+  };
+}
+
+const models = Object.fromEntries(readdirSync(join(repository, "specs/models")).filter((name) => name.endsWith(".xml")).map((name) => [name.slice(0, -4), readFileSync(join(repository, "specs/models", name), "utf8")]));
+const lessons = readdirSync(join(repository, "specs/lessons")).filter((name) => name.endsWith(".md")).sort();
+const labs = lessons.flatMap((name) => /^```lab simlab\n([^]*?)\n```$/m.exec(readFileSync(join(repository, "specs/lessons", name), "utf8"))?.[1] ?? []);
+const used = (text) => Object.entries(models).filter(([name]) => text.includes(`"${name}"`));
+const element = (text) => `<sim-lab><script type="application/json">${text.replaceAll("</", "<\\/")}</script>${used(text).map(([name, xml]) => `<script type="model/mjcf" data-name="${name}">${xml}</script>`).join("")}</sim-lab>`;
+const pages = Object.fromEntries(labs.flatMap((text, i) => scripts.map((script, j) => [`/${i}-${j}.html`, pageOf(element(text), { script })])));
+const server = await serve(pages);
+const browser = await launch();
+const found = scripts.map(() => ({}));
+for (let run = 0; run <= runs; run++) {
+  for (const path of Object.keys(pages)) {
+    const context = await browser.newContext();
+    const page = await context.newPage();
+    await page.addInitScript(watch);
+    await page.goto(server.url + path);
+    await page.waitForFunction(() => globalThis.marks["script fetched"] !== undefined);
+    const marks = await page.evaluate(() => globalThis.marks);
+    const list = found[Number(path.split("-")[1][0])];
+    // The first run warms up the browser.
+    if (run > 0) for (const [name, time] of Object.entries(marks)) (list[name] ??= []).push(time);
+    await context.close();
+  }
+}
+const median = (list) => list.toSorted((a, b) => a - b)[list.length >> 1];
+const smallest = (list) => Math.min(...list);
+scripts.forEach((script, i) => {
+  console.log(`${script}: ${labs.length} labs, ${runs} runs`);
+  const rows = Object.entries(found[i]).sort((a, b) => median(a[1]) - median(b[1]));
+  for (const [name, list] of rows) console.log(`  ${median(list).toFixed(0).padStart(5)} ms (${smallest(list).toFixed(0)})  ${name}`);
+});
+await browser.close();
+server.close();
