@@ -137,6 +137,7 @@ impl Platform {
         command.env("CARGO_PROFILE_RELEASE_STRIP", "symbols");
         if release.quick {
             command.env("CARGO_PROFILE_RELEASE_OPT_LEVEL", "1").env("CARGO_PROFILE_RELEASE_LTO", "off");
+            command.env("CARGO_PROFILE_RELEASE_DEBUG", "0");
             command.env("CARGO_PROFILE_RELEASE_CODEGEN_UNITS", "16");
         }
         let processor = processor.name.map(|name| format!("-C target-cpu={name}")).unwrap_or_default();
