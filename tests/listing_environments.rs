@@ -19,7 +19,7 @@ add() { echo "VALUE = 42" > "$("$1" -c 'import site; print(site.getsitepackages(
 case "$1" in
   venv) for last; do :; done; python3 -m venv --without-pip "$last" ;;
   pip) add "$5" ;;
-  sync) python3 -m venv --without-pip "$UV_PROJECT_ENVIRONMENT" && add "$UV_PROJECT_ENVIRONMENT/bin/python" ;;
+  sync) cd "$7" && python3 -m venv --without-pip "$UV_PROJECT_ENVIRONMENT" && add "$UV_PROJECT_ENVIRONMENT/bin/python" ;;
 esac
 "#;
 
@@ -55,7 +55,7 @@ fn check(folder: &Path) -> (u64, u64, String) {
     let programs = folder.join("programs");
     let inherited = std::env::var_os("PATH").unwrap_or_default();
     let path = std::env::join_paths([programs].into_iter().chain(std::env::split_paths(&inherited))).unwrap();
-    let output = command.env("PATH", path).env("LABSPEC_CACHE", folder.join("cache")).output().unwrap();
+    let output = command.env("PATH", path).env("LABSPEC_CACHE", "cache").output().unwrap();
     let report: Value = serde_json::from_slice(&output.stdout)
         .unwrap_or_else(|e| panic!("{e}: {}", String::from_utf8_lossy(&output.stderr)));
     let count = |state: &str| report["summary"]["claims"]["listing"][state].as_u64().unwrap();

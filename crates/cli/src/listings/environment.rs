@@ -47,6 +47,8 @@ pub(super) fn of_project(python: &Interpreter, folder: &Path) -> Result<Interpre
             let help = "install uv, or use `python` or `requirements` under [listings] in labspec.toml";
             return Err(("`project` needs the program `uv`, which does not run".into(), help.into()));
         }
+        // uv reads a relative path from the folder of the project.
+        let new = std::path::absolute(new).map_err(|e| cannot(e.to_string()))?;
         let mut command = Command::new("uv");
         command.args(["sync", "--frozen", "--no-install-project", "--no-build", "--no-config", "--project"]);
         command.arg(folder).arg("--python").arg(&python.program);
