@@ -28,11 +28,11 @@ pub(super) fn lists(release: &Release) -> Result<Vec<PathBuf>, String> {
 fn tool(release: &Release) -> Result<PathBuf, String> {
     let (name, version) = TOOL;
     let tools = release.target.join("release-tools");
-    let own = tools.join("bin").join(name);
+    let installed = tools.join("bin").join(name);
     if is_installed(name) {
         return Ok(name.into());
     }
-    if !own.exists() {
+    if !installed.exists() {
         // Not optimized: it runs for a second, and is built for minutes otherwise.
         let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
         cargo
@@ -40,7 +40,7 @@ fn tool(release: &Release) -> Result<PathBuf, String> {
             .arg(&tools);
         output_of(cargo.env_remove("RUSTFLAGS").current_dir(&release.target))?;
     }
-    Ok(own)
+    Ok(installed)
 }
 
 /// Removes the files that the tool has written in a folder and in those directly inside it: it writes one for each crate of a workspace.
