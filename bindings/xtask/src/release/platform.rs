@@ -136,9 +136,9 @@ impl Platform {
         // Symbols are needed only for profiling.
         command.env("CARGO_PROFILE_RELEASE_STRIP", "symbols");
         if release.quick {
-            command.env("CARGO_PROFILE_RELEASE_OPT_LEVEL", "1").env("CARGO_PROFILE_RELEASE_LTO", "off");
+            command.env("CARGO_PROFILE_RELEASE_OPT_LEVEL", "0").env("CARGO_PROFILE_RELEASE_LTO", "off");
             command.env("CARGO_PROFILE_RELEASE_DEBUG", "0");
-            command.env("CARGO_PROFILE_RELEASE_CODEGEN_UNITS", "16");
+            command.env("CARGO_PROFILE_RELEASE_CODEGEN_UNITS", "256");
         }
         let processor = processor.name.map(|name| format!("-C target-cpu={name}")).unwrap_or_default();
         // These flags replace those of `.cargo/config.toml`.
