@@ -90,7 +90,10 @@ fn labspec(root: &Path, name: &str, arguments: impl Fn(&mut Command) -> &mut Com
 /// Runs npm in the folder of a package.
 pub(crate) fn npm(folder: &Path, arguments: &[&str]) -> Result<(), String> {
     let program = if cfg!(windows) { "npm.cmd" } else { "npm" };
-    let done = Command::new(program).args(arguments).current_dir(folder).status();
+    let mut command = Command::new(program);
+    // Packages hold no times of the machine that packs them: 1 January 2025 instead.
+    command.args(arguments).current_dir(folder).env("SOURCE_DATE_EPOCH", "1735689600");
+    let done = command.status();
     match done.map_err(|e| format!("cannot run npm, which comes with node: {e}"))?.success() {
         true => Ok(()),
         false => Err(format!("`npm {}` failed in {}", arguments.join(" "), folder.display())),
