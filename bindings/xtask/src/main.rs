@@ -91,6 +91,9 @@ fn build(folder: Option<PathBuf>) -> Result<PathBuf, String> {
     let _ = Command::new("rustup").args(["target", "add", TARGET]).output();
     let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| crates.join("target"), PathBuf::from);
     let only = std::env::var("LABSPEC_MODULE").ok();
+    if let Some(unknown) = only.as_deref().filter(|only| MODULES.iter().all(|(name, ..)| name != only)) {
+        return Err(format!("LABSPEC_MODULE is player or checker, not {unknown}"));
+    }
     for (name, features, others) in MODULES {
         if only.as_deref().is_some_and(|only| only != name) {
             continue;

@@ -6,6 +6,9 @@ use std::process::Command;
 /// The packages, each after those that it contains.
 const PACKAGES: [&str; 3] = ["labspec", "elements", "site"];
 
+/// The time that packages state instead of the time of packing: 1 January 2025, as the tools read it from `SOURCE_DATE_EPOCH`.
+pub(crate) const PACKED_AT: &str = "1735689600";
+
 /// Builds the npm packages; returns the folder that `labspec build` and `labspec preview` use.
 pub(crate) fn page() -> Result<PathBuf, String> {
     let web = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../web");
@@ -91,8 +94,7 @@ fn labspec(root: &Path, name: &str, arguments: impl Fn(&mut Command) -> &mut Com
 pub(crate) fn npm(folder: &Path, arguments: &[&str]) -> Result<(), String> {
     let program = if cfg!(windows) { "npm.cmd" } else { "npm" };
     let mut command = Command::new(program);
-    // Packages hold no times of the machine that packs them: 1 January 2025 instead.
-    command.args(arguments).current_dir(folder).env("SOURCE_DATE_EPOCH", "1735689600");
+    command.args(arguments).current_dir(folder).env("SOURCE_DATE_EPOCH", PACKED_AT);
     let done = command.status();
     match done.map_err(|e| format!("cannot run npm, which comes with node: {e}"))?.success() {
         true => Ok(()),

@@ -3,6 +3,7 @@
 
 use super::platform::{is_installed, output_of};
 use super::{Release, failed, write};
+use crate::page::PACKED_AT;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -72,7 +73,7 @@ fn list(release: &Release, tool: &Path, name: &str, package: &str) -> Result<Pat
         &written,
     ]);
     // No time, and no number that is drawn for each file.
-    command.arg("--manifest-path").arg(folder.join("Cargo.toml")).env("SOURCE_DATE_EPOCH", "315532800");
+    command.arg("--manifest-path").arg(folder.join("Cargo.toml")).env("SOURCE_DATE_EPOCH", PACKED_AT);
     output_of(&mut command)?;
     let made = folder.join(format!("{written}.json"));
     let text = fs::read_to_string(&made).map_err(|e| failed(&made, &e))?;

@@ -1,7 +1,7 @@
 //! A release: everything that is published, in one folder, beside a file with the checksums of all of it.
 //!
 //! Each part is a row of [`PARTS`]. A part whose tool is missing fails and says what to install; what is built for another machine is
-//! skipped with a reason. The same sources give the same bytes: archives hold no times and no owners.
+//! skipped with a reason. Archives hold no times and no owners.
 
 mod archive;
 mod components;

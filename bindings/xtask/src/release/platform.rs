@@ -110,13 +110,18 @@ impl Platform {
         self.cross.is_none()
     }
 
-    /// A command of cargo that builds for a processor, and the folder in which it builds. `flags` are more flags for rustc.
-    pub(super) fn cargo(&self, release: &Release, processor: &Processor, flags: &str) -> (Command, PathBuf) {
+    /// A command of cargo that builds for a processor, and the folder in which it builds. `purpose` begins the name of the folder.
+    pub(super) fn cargo(
+        &self,
+        release: &Release,
+        processor: &Processor,
+        purpose: &str,
+    ) -> (Command, PathBuf) {
         let name = processor.name.unwrap_or(&self.triple);
-        let folder = release.target.join(format!("for-{name}"));
+        let folder = release.target.join(format!("{purpose}-{name}"));
         let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
         cargo.current_dir(&release.root);
-        self.settings(&mut cargo, release, processor, flags);
+        self.settings(&mut cargo, release, processor);
         cargo.env("CARGO_TARGET_DIR", &folder);
         let built = match self.cross {
             Some(_) => folder.join(&self.triple).join("release"),
@@ -126,13 +131,7 @@ impl Platform {
     }
 
     /// The environment of a command that calls cargo.
-    pub(super) fn settings(
-        &self,
-        command: &mut Command,
-        release: &Release,
-        processor: &Processor,
-        flags: &str,
-    ) {
+    pub(super) fn settings(&self, command: &mut Command, release: &Release, processor: &Processor) {
         // Symbols are needed only for profiling.
         command.env("CARGO_PROFILE_RELEASE_STRIP", "symbols");
         if release.quick {
@@ -140,9 +139,9 @@ impl Platform {
             command.env("CARGO_PROFILE_RELEASE_DEBUG", "0");
             command.env("CARGO_PROFILE_RELEASE_CODEGEN_UNITS", "256");
         }
-        let processor = processor.name.map(|name| format!("-C target-cpu={name}")).unwrap_or_default();
         // These flags replace those of `.cargo/config.toml`.
-        command.env("RUSTFLAGS", format!("{processor} {flags}").trim());
+        let flags = processor.name.map(|name| format!("-C target-cpu={name}")).unwrap_or_default();
+        command.env("RUSTFLAGS", flags);
         if let Some(cross) = self.cross {
             command.env("CARGO_BUILD_TARGET", &self.triple);
             let triple = self.triple.to_uppercase().replace('-', "_");

@@ -61,7 +61,7 @@ pub(super) fn archives(release: &Release) -> Result<Vec<PathBuf>, String> {
 
 /// Builds the program for a processor.
 fn program(release: &Release, platform: &Platform, processor: &Processor) -> Result<PathBuf, String> {
-    let (mut cargo, built) = platform.cargo(release, processor, "");
+    let (mut cargo, built) = platform.cargo(release, processor, "for");
     cargo.args(["build", "--release", "--quiet", "--locked", "--package", "labspec-cli"]);
     match cargo.status().map_err(|e| format!("cannot run cargo: {e}"))?.success() {
         true => Ok(built.join(PROGRAM)),

@@ -3,6 +3,7 @@
 use super::platform::{self, Platform, output_of};
 use super::program::on_old_processor;
 use super::{Release, emptied, failed, files_of};
+use crate::page::PACKED_AT;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -10,7 +11,7 @@ use std::process::Command;
 /// As in `bindings/python/test.sh`.
 const MATURIN: &str = "maturin==1.16.0";
 
-/// What a new environment with the wheel prints: the program of the wheel, and a number of a lab.
+/// Imports the package, and prints its version.
 const TRIED: &str = "import labspec; print(labspec.__version__)";
 
 /// Builds the wheels of all platforms, for every processor of each.
@@ -49,7 +50,7 @@ fn wheel(release: &Release, platform: &Platform, tools: &Path) -> Result<PathBuf
     let every = &platform.processors[0];
     let mut maturin = Command::new(tools.join("bin/maturin"));
     maturin.args(["build", "--release", "--quiet", "--locked", "--out"]).arg(&out);
-    platform.settings(&mut maturin, release, every, "");
+    platform.settings(&mut maturin, release, every);
     if platform.is_here() {
         maturin.arg("--interpreter").arg(tools.join("bin/python"));
     } else {
@@ -57,7 +58,7 @@ fn wheel(release: &Release, platform: &Platform, tools: &Path) -> Result<PathBuf
         maturin.args(["--target", &platform.triple, "--compatibility", "linux"]);
     }
     let folder = release.target.join(format!("wheel-for-{}", every.name.unwrap_or(&platform.triple)));
-    maturin.env("CARGO_TARGET_DIR", folder).env("SOURCE_DATE_EPOCH", "315532800");
+    maturin.env("CARGO_TARGET_DIR", folder).env("SOURCE_DATE_EPOCH", PACKED_AT);
     maturin.current_dir(release.root.join("bindings/python"));
     output_of(&mut maturin)?;
     let built = files_of(&out)?.into_iter().next().ok_or("maturin built no wheel")?;
@@ -76,7 +77,6 @@ fn try_out(release: &Release, wheel: &Path) -> Result<(), String> {
     let text = output_of(Command::new(&python).args(["-c", TRIED]))?;
     let lessons = release.root.join("specs/lessons/02-bounce-and-swing.md");
     output_of(Command::new(tried.join("bin/labspec")).args(["check", "--no-cache"]).arg(&lessons))?;
-    // The packages that labspec needs may refuse an old processor themselves: NumPy since 2.4 needs x86-64-v2, which this one has.
     if let Some(mut command) = on_old_processor(&python)
         && output_of(command.args(["-c", TRIED]))? != text
     {
