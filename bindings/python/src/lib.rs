@@ -38,7 +38,7 @@ mod _labspec {
     #[pymodule_export]
     use crate::numerics::{precision, stability};
     #[pymodule_export]
-    use crate::program::run_program;
+    use crate::program::{run_program, runs_faster_build};
     #[pymodule_export]
     use crate::recording::record_run;
     #[pymodule_export]

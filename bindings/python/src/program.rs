@@ -21,3 +21,9 @@ pub(crate) fn run_program(py: Python<'_>, arguments: Vec<OsString>) -> PyResult<
     interrupt::flag().store(false, Ordering::Relaxed);
     code.map_err(|panic| error("panic", &format!("labspec failed: {panic}; report it"), &[]))
 }
+
+/// Whether the package may contain a faster build of this module for this processor.
+#[pyfunction]
+pub(crate) fn runs_faster_build() -> bool {
+    labspec_cli::runs_faster_build()
+}

@@ -1,6 +1,7 @@
 """The program that the wheel brings: the same output as the program that is built alone."""
 
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -58,3 +59,29 @@ def test_ctrl_c_ends_the_program_as_it_does_alone():
     os.kill(child.pid, signal.SIGINT)
     assert child.wait(timeout=20) == 130
     assert b"Traceback" not in child.stderr.read()
+
+
+def test_a_build_for_newer_processors_takes_the_place_of_the_other(tmp_path):
+    import labspec
+    from labspec import _labspec, _processor
+
+    # This package was built once.
+    assert _processor.faster(_labspec) is None
+    package = Path(labspec.__file__).parent
+    copy = tmp_path / "labspec"
+    shutil.copytree(package, copy, ignore=shutil.ignore_patterns("__pycache__"))
+    (copy / "x86-64-v3").mkdir()
+    shutil.copy(_labspec.__file__, copy / "x86-64-v3")
+    code = """if True:
+        import labspec
+        from labspec import _processor
+        built = _processor.faster(labspec._labspec)
+        assert built is not None and built is not labspec._labspec
+        _processor.use(built)
+        from labspec import _labspec
+        import labspec._labspec as imported
+        assert _labspec is built and imported is built and "x86-64-v3" in built.__file__
+        print(built.__VERSION__)
+    """
+    done = subprocess.run([sys.executable, "-c", code], env={**os.environ, "PYTHONPATH": str(tmp_path)}, capture_output=True, text=True)
+    assert (done.stdout.strip(), done.stderr) == (labspec.__version__, "")

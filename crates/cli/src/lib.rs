@@ -38,6 +38,7 @@ mod plan;
 mod policy;
 mod precision;
 mod preview;
+mod processor;
 mod report_json;
 mod report_schema;
 mod reproduction;
@@ -59,3 +60,4 @@ mod widgets;
 
 pub use commands::run_program;
 pub use embedding::{LabReport, lesson_report, precision_report, stability_report};
+pub use processor::{runs_faster_build, start_faster_program};

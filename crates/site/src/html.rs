@@ -145,7 +145,8 @@ impl AuthorElements {
     pub(crate) fn filter(&mut self, html: &str, base: usize, addresses: &mut dyn Addresses) -> String {
         let mut out = String::new();
         let mut dropped: Option<String> = None;
-        for token in Tokenizer::new(html).flatten() {
+        // With spans, which are not read: one tokenizer in the program.
+        for token in Tokenizer::new_with_emitter(html, DefaultEmitter::<usize>::new_with_span()).flatten() {
             match (token, &dropped) {
                 (Token::EndTag(tag), Some(name)) if read(&tag.name) == *name => dropped = None,
                 (_, Some(_)) => {}

@@ -8,6 +8,8 @@
 0.8018
 """
 
+# First: it chooses the module that all others import.
+from . import _processor as _processor
 from ._check import Claim, Finding, Measured, Report, Verification, check
 from ._compare import EngineComparison, EngineRow, compare_engines
 from ._designs import latin_hypercube, sobol

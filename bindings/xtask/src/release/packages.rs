@@ -1,18 +1,22 @@
 //! The packages of crates.io, of npm, and of editors, made by the tools of their registries.
 
+use super::platform::output_of;
 use super::{Release, emptied, failed, files_of};
 use crate::page::npm;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Packs all crates that are published, and builds each of them as it was packed.
+/// Packs all crates that are published, builds each of them as it was packed, and does all that publishing does but the upload. Their
+/// interfaces are compared with those of the last release.
 pub(super) fn crates(release: &Release) -> Result<Vec<PathBuf>, String> {
+    compare_interfaces(release)?;
     let target = release.target.join("packed-crates");
     let packed = target.join("package");
     emptied(&packed)?;
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    cargo.args(["package", "--workspace", "--quiet", "--locked", "--allow-dirty"]).current_dir(&release.root);
+    cargo.args(["publish", "--dry-run", "--workspace", "--quiet", "--locked", "--allow-dirty"]);
+    cargo.current_dir(&release.root);
     if release.quick {
         cargo.arg("--no-verify");
     }
@@ -24,6 +28,26 @@ pub(super) fn crates(release: &Release) -> Result<Vec<PathBuf>, String> {
     let mut files = files_of(&packed)?;
     files.retain(|file| file.extension().is_some_and(|ending| ending == "crate"));
     files.into_iter().map(|file| copied(&file, &release.folder, None)).collect()
+}
+
+/// Compares the interfaces of the crates with those of the last release, which is the newest tag `v*`, by cargo-semver-checks: what breaks
+/// programs that use them needs another version.
+fn compare_interfaces(release: &Release) -> Result<(), String> {
+    let tags = output_of(
+        Command::new("git")
+            .args(["tag", "--list", "v*", "--sort=-version:refname"])
+            .current_dir(&release.root),
+    )?;
+    let Some(last) = tags.lines().next() else {
+        eprintln!("xtask: skipped: interfaces are not compared: there is no earlier release (no tag v*)");
+        return Ok(());
+    };
+    let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    cargo.args(["semver-checks", "--workspace", "--baseline-rev", last]).current_dir(&release.root);
+    cargo.env("CARGO_TARGET_DIR", release.target.join("compared-crates"));
+    output_of(&mut cargo).map(drop).map_err(|why| {
+        format!("{why}\n(if cargo has no such command: cargo install cargo-semver-checks --locked)")
+    })
 }
 
 /// Copies a file into a folder, under a name if one is given.

@@ -24,6 +24,7 @@ pub(super) struct Processor {
 #[derive(Clone, Copy)]
 struct Cross {
     linker: &'static str,
+    objcopy: &'static str,
     emulator: &'static str,
     /// Where the emulator finds the libraries of the machine.
     libraries: &'static str,
@@ -43,6 +44,7 @@ const OTHER: (&str, Cross) = (
     "aarch64-unknown-linux-gnu",
     Cross {
         linker: "aarch64-linux-gnu-gcc",
+        objcopy: "aarch64-linux-gnu-objcopy",
         emulator: "qemu-aarch64",
         libraries: "/usr/aarch64-linux-gnu",
         install: "rustup target add aarch64-unknown-linux-gnu && apt-get install gcc-aarch64-linux-gnu qemu-user",
@@ -64,6 +66,15 @@ pub(super) fn all() -> Result<Vec<Platform>, String> {
         eprintln!("xtask: skipped: {triple}: its tools are not installed: {}", cross.install);
     }
     Ok(all)
+}
+
+/// Whether this machine runs the builds for newer processors.
+pub(super) fn here_is_fast() -> bool {
+    #[cfg(target_arch = "x86_64")]
+    let fast = std::arch::is_x86_feature_detected!("avx2");
+    #[cfg(not(target_arch = "x86_64"))]
+    let fast = true;
+    fast
 }
 
 /// Whether a program of this name can be run.
@@ -110,6 +121,11 @@ impl Platform {
         self.cross.is_none()
     }
 
+    /// The program that separates symbols from programs, if it is installed.
+    pub(super) fn objcopy(&self) -> Option<&'static str> {
+        Some(self.cross.map_or("objcopy", |cross| cross.objcopy)).filter(|name| is_installed(name))
+    }
+
     /// A command of cargo that builds for a processor, and the folder in which it builds. `purpose` begins the name of the folder.
     pub(super) fn cargo(
         &self,
@@ -132,7 +148,7 @@ impl Platform {
 
     /// The environment of a command that calls cargo.
     pub(super) fn settings(&self, command: &mut Command, release: &Release, processor: &Processor) {
-        // Symbols are needed only for profiling.
+        // Symbols are needed only for profiling and for reading a crash; the program has them in an archive.
         command.env("CARGO_PROFILE_RELEASE_STRIP", "symbols");
         if release.quick {
             command.env("CARGO_PROFILE_RELEASE_OPT_LEVEL", "0").env("CARGO_PROFILE_RELEASE_LTO", "off");

@@ -1,4 +1,5 @@
-//! The archives of the program, with its manual pages, its completions, and the scripts and styles of pages, which it finds beside itself.
+//! The archives of the program, with its manual pages, its completions, and the scripts and styles of pages, which it finds beside itself; and
+//! the archives of its symbols, which debuggers and profilers find by the name in the program.
 
 use super::archive::{Contents, Packed, pack, unpack};
 use super::platform::{self, Platform, Processor, output, output_of};
@@ -35,13 +36,15 @@ pub(super) fn archives(release: &Release) -> Result<Vec<PathBuf>, String> {
     let scripts = (release.scripts)()?;
     let mut archives = Vec::new();
     for platform in platform::all()? {
-        let mut files = Vec::new();
+        let (mut files, mut symbols) = (Vec::new(), Vec::new());
         for (place, processor) in platform.processors.iter().enumerate() {
             let program = program(release, &platform, processor)?;
             let name = match (place, processor.name) {
                 (1.., Some(name)) => format!("labspec-{name}"),
                 _ => PROGRAM.into(),
             };
+            let (program, with_name) = separated(&platform, program, &name)?;
+            symbols.extend(with_name);
             files.push(Packed { path: name.into(), contents: Contents::Program(read(&program)?) });
             if generated.is_empty() {
                 generated = for_shells(&program)?;
@@ -55,14 +58,37 @@ pub(super) fn archives(release: &Release) -> Result<Vec<PathBuf>, String> {
         let archive = release.folder.join(format!("{name}.tar.gz"));
         write(&archive, &bytes)?;
         archives.push(archive);
+        if symbols.is_empty() {
+            eprintln!("xtask: skipped: the symbols for {}: apt-get install binutils", platform.triple);
+        } else {
+            let name = format!("{name}-symbols");
+            let archive = release.folder.join(format!("{name}.tar.gz"));
+            write(&archive, &pack(&symbols, &name)?)?;
+            archives.push(archive);
+        }
     }
     Ok(archives)
+}
+
+/// The program without its symbols, and its symbols in a file with the name that the program then contains, if the tool is installed.
+fn separated(platform: &Platform, program: PathBuf, name: &str) -> Result<(PathBuf, Option<Packed>), String> {
+    let Some(objcopy) = platform.objcopy() else { return Ok((program, None)) };
+    let symbols = program.with_file_name(format!("{name}.debug"));
+    output_of(Command::new(objcopy).arg("--only-keep-debug").args([&program, &symbols]))?;
+    let stripped = program.with_file_name(format!("{name}.stripped"));
+    let link = format!("--add-gnu-debuglink={}", symbols.display());
+    output_of(Command::new(objcopy).args(["--strip-all", &link]).args([&program, &stripped]))?;
+    let path = PathBuf::from(symbols.file_name().unwrap_or_default());
+    Ok((stripped, Some(Packed::file(path, read(&symbols)?))))
 }
 
 /// Builds the program for a processor.
 fn program(release: &Release, platform: &Platform, processor: &Processor) -> Result<PathBuf, String> {
     let (mut cargo, built) = platform.cargo(release, processor, "for");
     cargo.args(["build", "--release", "--quiet", "--locked", "--package", "labspec-cli"]);
+    if platform.objcopy().is_some() {
+        cargo.env("CARGO_PROFILE_RELEASE_STRIP", "none");
+    }
     match cargo.status().map_err(|e| format!("cannot run cargo: {e}"))?.success() {
         true => Ok(built.join(PROGRAM)),
         false => Err("the program was not built".into()),
@@ -138,8 +164,7 @@ fn try_processors(unpacked: &Path, program: &Path, platform: &Platform) -> Resul
         true => Ok(()),
         false => Err(format!("the program was not built for {name}: {text}")),
     };
-    #[cfg(target_arch = "x86_64")]
-    if std::arch::is_x86_feature_detected!("avx2") {
+    if platform::here_is_fast() {
         has_instructions(&output(program, &["--version"])?, instructions)?;
     }
     let (faster, hidden) = (unpacked.join(format!("labspec-{name}")), unpacked.join("hidden"));
