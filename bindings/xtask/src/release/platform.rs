@@ -126,6 +126,14 @@ impl Platform {
         Some(self.cross.map_or("objcopy", |cross| cross.objcopy)).filter(|name| is_installed(name))
     }
 
+    /// The arguments with which cargo and maturin read `release.toml`: none if nothing is optimized.
+    pub(super) fn sizes(release: &Release) -> Vec<std::ffi::OsString> {
+        match release.quick {
+            true => Vec::new(),
+            false => vec!["--config".into(), release.root.join("bindings/xtask/release.toml").into()],
+        }
+    }
+
     /// A command of cargo that builds for a processor, and the folder in which it builds. `purpose` begins the name of the folder.
     pub(super) fn cargo(
         &self,
