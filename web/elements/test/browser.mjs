@@ -61,11 +61,27 @@ export async function saveFile(page, press) {
     return { name: download.suggestedFilename(), bytes: readFileSync(await download.path()) };
   }
   await page.evaluate(() => {
-    globalThis.savedFile = new Promise((resolve) => addEventListener("click", (event) => {
-      const link = event.target;
-      if (!(link instanceof HTMLAnchorElement) || link.download === "") return;
-      fetch(link.href).then((response) => response.arrayBuffer()).then((bytes) => resolve({ name: link.download, bytes: [...new Uint8Array(bytes)] }));
-    }, { capture: true }));
+    globalThis.savedFile = new Promise((resolve) => {
+      // A strict policy lets no page fetch what it offers.
+      const [blobs, { createObjectURL }] = [new Map(), URL];
+      URL.createObjectURL = (blob) => {
+        const address = createObjectURL(blob);
+        blobs.set(address, blob);
+        return address;
+      };
+      const take = (link) => {
+        if (!(link instanceof HTMLAnchorElement) || link.download === "") return;
+        const blob = blobs.get(link.href) ?? fetch(link.href);
+        Promise.resolve(blob).then((blob) => blob.arrayBuffer()).then((bytes) => resolve({ name: link.download, bytes: [...new Uint8Array(bytes)] }));
+      };
+      addEventListener("click", (event) => take(event.target), { capture: true });
+      // A link that is not in the page sends its click to nobody else.
+      const { click } = HTMLAnchorElement.prototype;
+      HTMLAnchorElement.prototype.click = function () {
+        if (!this.isConnected) take(this);
+        click.call(this);
+      };
+    });
   });
   await press();
   const { name, bytes } = await page.evaluate(() => globalThis.savedFile);

@@ -1,4 +1,4 @@
-// The playground in Chromium, under a policy that allows no style and no script but files.
+// The playground in a browser, under a policy that allows no style and no script but files.
 import assert from "node:assert/strict";
 import { mkdtempSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -6,7 +6,7 @@ import { join } from "node:path";
 import test, { after } from "node:test";
 import { deflateRawSync } from "node:zlib";
 import { zipSync } from "fflate";
-import { launch, newContext, serve, watchErrors } from "./site.mjs";
+import { isChromium, launch, newContext, saveFile, serve, watchErrors } from "./site.mjs";
 
 const server = await serve();
 const browser = await launch();
@@ -47,8 +47,24 @@ const content = (page, id) => page.locator(`#${id} .cm-content`);
 /** Replaces a whole text, as by pasting. */
 async function write(page, id, now) {
   await content(page, id).click();
+  await replace(page, now);
+}
+/** Replaces the text with the focus. Firefox pastes it: what a driver inserts there is not what a person does. */
+async function replace(page, now) {
   await page.keyboard.press("Control+a");
-  await page.keyboard.insertText(now);
+  if (isChromium) return page.keyboard.insertText(now);
+  await page.evaluate((text) => navigator.clipboard.writeText(text), now);
+  return page.keyboard.press("Control+v");
+}
+/** The text of the clipboard, pasted into a field: Firefox asks before a page reads it. */
+async function pasted(page) {
+  await page.evaluate(() => document.body.append(Object.assign(document.createElement("textarea"), { id: "pasted" })));
+  const field = page.locator("#pasted");
+  await field.focus();
+  await page.keyboard.press("Control+v");
+  const text = await field.inputValue();
+  await field.evaluate((field) => field.remove());
+  return text;
 }
 const upToDate = (page) => says(page, /up to date/);
 
@@ -75,7 +91,7 @@ test("a typo is marked at its place, quickly, and fixed by a click", async (t) =
     const editor = document.querySelector("#lab-text .labspec-editor").shadowRoot;
     globalThis.took = new Promise((resolve) => {
       let typed = 0;
-      editor.addEventListener("beforeinput", () => { typed = performance.now(); }, true);
+      for (const kind of ["beforeinput", "paste"]) editor.addEventListener(kind, () => { typed ||= performance.now(); }, true);
       new MutationObserver(() => { if (editor.querySelector(".cm-lintRange-error") !== null && typed > 0) resolve(performance.now() - typed); }).observe(editor, { childList: true, subtree: true, attributes: true });
     });
   });
@@ -193,8 +209,11 @@ test("files are dropped, chosen, and taken from archives and folders", async (t)
     mkdirSync(join(file, ".."), { recursive: true });
     writeFileSync(file, content.replaceAll('"geoms"', '"all geoms"'));
   }
-  await page.setInputFiles("#folder", folder);
-  await page.waitForFunction(() => document.querySelector("sim-lab").shown[0]?.label === "all geoms" && document.querySelector("sim-lab").texts[0] === "2");
+  // The protocol that drives Firefox has no folders.
+  if (isChromium) {
+    await page.setInputFiles("#folder", folder);
+    await page.waitForFunction(() => document.querySelector("sim-lab").shown[0]?.label === "all geoms" && document.querySelector("sim-lab").texts[0] === "2");
+  }
   await page.setInputFiles("#files", { name: "a.zip", mimeType: "application/zip", buffer: Buffer.from("no archive") });
   await says(page, /archive cannot be read/);
   errors.none();
@@ -234,10 +253,8 @@ test("a link holds what is written; the lesson that is downloaded is opened agai
   await upToDate(page);
   await page.getByRole("button", { name: "Copy link" }).click();
   await says(page, /copied/);
-  const address = await page.evaluate(() => navigator.clipboard.readText());
-  const download = page.waitForEvent("download");
-  await page.getByRole("button", { name: "Download lesson" }).click();
-  const lesson = readFileSync(await (await download).path());
+  const address = await pasted(page);
+  const { bytes: lesson } = await saveFile(page, () => page.getByRole("button", { name: "Download lesson" }).click());
   const { page: other, errors: none } = await open(t, address.slice(server.url.length));
   await upToDate(other);
   assert.deepEqual([await text(other, "lab-text"), await text(other, "model")], [changed, drop.trimEnd() + "\n"]);
@@ -305,8 +322,7 @@ test("everything by keyboard: complete, next finding, fix, leave, play", async (
   await page.locator("#examples").focus();
   for (let i = 0; i < 30 && (await inside()) !== "lab-text"; i++) await page.keyboard.press("Tab");
   assert.equal(await inside(), "lab-text");
-  await page.keyboard.press("Control+a");
-  await page.keyboard.insertText(lab.replace("xpos", "xpso"));
+  await replace(page, lab.replace("xpos", "xpso"));
   await page.locator("#lab-text .cm-lintRange-error").waitFor();
   await page.keyboard.press("Control+Home");
   await page.keyboard.press("F8");

@@ -1,10 +1,10 @@
-// The playground as a server of files serves it, under a strict policy, in Chromium.
+// The playground as a server of files serves it, under a strict policy.
 import { existsSync, readFileSync, statSync } from "node:fs";
 import { createServer } from "node:http";
 import { dirname, extname, join, normalize } from "node:path";
 import { fileURLToPath } from "node:url";
 
-export { launch, newContext, watchErrors } from "../../../elements/test/page/site.mjs";
+export { isChromium, launch, newContext, saveFile, watchErrors } from "../../../elements/test/page/site.mjs";
 
 const root = join(dirname(fileURLToPath(import.meta.url)), "../../dist");
 const TYPES = { ".html": "text/html; charset=utf-8", ".js": "text/javascript", ".css": "text/css", ".wasm": "application/wasm", ".json": "application/json", ".xml": "text/xml", ".md": "text/markdown" };
