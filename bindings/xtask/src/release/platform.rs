@@ -164,8 +164,9 @@ impl Platform {
             command.env("CARGO_PROFILE_RELEASE_CODEGEN_UNITS", "256");
         }
         // These flags replace those of `.cargo/config.toml`.
-        let flags = processor.name.map(|name| format!("-C target-cpu={name}")).unwrap_or_default();
-        command.env("RUSTFLAGS", flags);
+        let mut flags = crate::same_paths(&release.root, &release.target);
+        flags.extend(processor.name.map(|name| format!("-Ctarget-cpu={name}")));
+        command.env_remove("RUSTFLAGS").env("CARGO_ENCODED_RUSTFLAGS", flags.join("\x1f"));
         if let Some(cross) = self.cross {
             command.env("CARGO_BUILD_TARGET", &self.triple);
             let triple = self.triple.to_uppercase().replace('-', "_");
