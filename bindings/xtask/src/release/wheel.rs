@@ -1,8 +1,8 @@
 //! The wheels of the Python package, built by maturin in an environment of its own.
 //!
 //! The wheel for Linux on x86-64 contains the extension module twice: for every processor, and in the folder `x86-64-v3` for newer ones. The
-//! package `wheel` puts the second one into the wheel of the first one. One wheel serves all versions of Python with a global interpreter lock; each version
-//! without one has its own, which is built if its interpreter is installed.
+//! package `wheel` puts the second one into the wheel of the first one. One wheel serves all versions of Python with a global interpreter
+//! lock. Each version without this lock has a wheel of its own, which is built if the interpreter is installed.
 
 use super::platform::{self, Platform, Processor, here_is_fast, output_of};
 use super::program::on_old_processor;
