@@ -124,7 +124,7 @@ test("the picture has the pixels of its size on the page", async () => {
 test("a screen with other pixels gives the picture other pixels", async () => {
   const other = await openPage(), devtools = await other.page.context().newCDPSession(other.page);
   await other.page.evaluate(s => {
-    // Emulation changes the pixels and sends no event; the test sends it.
+    // Emulation changes the pixels, and does not always send the event: the test sends it.
     const { matchMedia } = globalThis;
     globalThis.queries = [];
     globalThis.matchMedia = query => {
@@ -142,14 +142,17 @@ test("a screen with other pixels gives the picture other pixels", async () => {
       return shown.canvas.width;
     }));
   }
-  const count = await other.page.evaluate(() => {
+  const [media, late] = await other.page.evaluate(() => {
     shown.view.dispose();
+    const before = queries.length;
     queries.at(-1).dispatchEvent(new Event("change"));
-    return queries.map(q => q.media);
+    return [queries.map(q => q.media), queries.length - before];
   });
   await other.stop();
   assert.deepEqual(widths, [200, 400, 400]);
-  assert.deepEqual(count, ["(resolution: 1dppx)", "(resolution: 1dppx)", "(resolution: 2dppx)", "(resolution: 3dppx)"]);
+  // Some versions send the event themselves, too: a query more for the same pixels.
+  assert.deepEqual([...new Set(media)], ["(resolution: 1dppx)", "(resolution: 2dppx)", "(resolution: 3dppx)"]);
+  assert.equal(late, 0);
 });
 
 test("meshes and textures are uploaded once, and freed with the last view", async () => {
