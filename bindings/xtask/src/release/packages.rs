@@ -14,19 +14,26 @@ pub(super) fn crates(release: &Release) -> Result<Vec<PathBuf>, String> {
     let target = release.target.join("packed-crates");
     let packed = target.join("package");
     emptied(&packed)?;
-    let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    cargo.args(["publish", "--dry-run", "--workspace", "--quiet", "--locked", "--allow-dirty"]);
-    cargo.current_dir(&release.root);
-    if release.quick {
-        cargo.arg("--no-verify");
+    let cargo = |arguments: &[&str]| {
+        let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+        cargo.args(arguments).args(["--workspace", "--quiet", "--locked", "--allow-dirty"]);
+        cargo.current_dir(&release.root).env("CARGO_TARGET_DIR", &target);
+        match cargo.status().map_err(|e| format!("cannot run cargo: {e}"))?.success() {
+            true => Ok(()),
+            false => Err("a crate cannot be packed".to_string()),
+        }
+    };
+    match release.quick {
+        true => cargo(&["publish", "--dry-run", "--no-verify"])?,
+        false => cargo(&["publish", "--dry-run"])?,
     }
-    let done =
-        cargo.env("CARGO_TARGET_DIR", &target).status().map_err(|e| format!("cannot run cargo: {e}"))?;
-    if !done.success() {
-        return Err("a crate cannot be packed".into());
-    }
+    // A dry run keeps no files.
+    cargo(&["package", "--no-verify"])?;
     let mut files = files_of(&packed)?;
     files.retain(|file| file.extension().is_some_and(|ending| ending == "crate"));
+    if files.is_empty() {
+        return Err("cargo has packed no crate".into());
+    }
     files.into_iter().map(|file| copied(&file, &release.folder, None)).collect()
 }
 
