@@ -82,7 +82,7 @@ fn keeps_names() -> bool {
     std::env::var_os("LABSPEC_NAMES").is_some()
 }
 
-/// Flags of rustc with which files do not contain where they were built: the repository, the folder of cargo's files, the packages that
+/// Flags of rustc that replace paths of this machine: the repository, the folder of cargo's files, the packages that
 /// cargo has loaded, and the sources of the standard library, if they are installed.
 fn same_paths(root: &Path, target: &Path) -> Vec<String> {
     let home = std::env::var_os("CARGO_HOME").map(PathBuf::from);

@@ -113,6 +113,14 @@ fn write(path: &Path, bytes: &[u8]) -> Result<(), String> {
     fs::write(path, bytes).map_err(|e| failed(path, &e))
 }
 
+/// Copies a file into a folder, under a name if one is given.
+fn copied(file: &Path, folder: &Path, name: Option<String>) -> Result<PathBuf, String> {
+    let name = name.map_or_else(|| file.file_name().unwrap_or_default().to_owned(), Into::into);
+    let to = folder.join(name);
+    fs::copy(file, &to).map_err(|e| failed(file, &e))?;
+    Ok(to)
+}
+
 /// Makes an empty folder.
 fn emptied(folder: &Path) -> Result<(), String> {
     if folder.exists() {

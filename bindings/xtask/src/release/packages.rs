@@ -1,10 +1,9 @@
 //! The packages of crates.io, of npm, and of editors, made by the tools of their registries.
 
 use super::platform::output_of;
-use super::{Release, emptied, failed, files_of};
+use super::{Release, copied, emptied, files_of};
 use crate::page::npm;
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::Command;
 
 /// Packs all crates that are published, builds each of them as it was packed, and does all that publishing does but the upload. Their
@@ -55,14 +54,6 @@ fn compare_interfaces(release: &Release) -> Result<(), String> {
     output_of(&mut cargo).map(drop).map_err(|why| {
         format!("{why}\n(if cargo has no such command: cargo install cargo-semver-checks --locked)")
     })
-}
-
-/// Copies a file into a folder, under a name if one is given.
-fn copied(file: &Path, folder: &Path, name: Option<String>) -> Result<PathBuf, String> {
-    let name = name.map_or_else(|| file.file_name().unwrap_or_default().to_owned(), Into::into);
-    let to = folder.join(name);
-    fs::copy(file, &to).map_err(|e| failed(file, &e))?;
-    Ok(to)
 }
 
 /// The npm packages that are published; each is built before it is packed.

@@ -6,7 +6,7 @@
 
 use super::platform::{self, Platform, Processor, here_is_fast, output_of};
 use super::program::on_old_processor;
-use super::{Release, emptied, failed, files_of};
+use super::{Release, copied, emptied, failed, files_of};
 use crate::page::PACKED_AT;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -51,7 +51,7 @@ fn wheel(release: &Release, platform: &Platform, python: &str, tools: &Path) -> 
         built.push(build(release, platform, processor, python, tools)?);
     }
     let wheel = match (built.as_slice(), platform.processors) {
-        ([every], _) => copied(every, &release.folder)?,
+        ([every], _) => copied(every, &release.folder, None)?,
         ([every, newer], [_, Processor { name: Some(name), .. }]) => {
             joined(release, tools, every, newer, name)?
         }
@@ -105,13 +105,6 @@ fn build(
     files_of(&out)?.into_iter().next().ok_or_else(|| "maturin built no wheel".into())
 }
 
-/// Copies a file into a folder.
-fn copied(file: &Path, folder: &Path) -> Result<PathBuf, String> {
-    let to = folder.join(file.file_name().unwrap_or_default());
-    fs::copy(file, &to).map_err(|e| failed(file, &e))?;
-    Ok(to)
-}
-
 /// Writes the wheel for every processor with the module for newer processors in a folder with their name.
 fn joined(
     release: &Release,
@@ -137,12 +130,12 @@ fn joined(
         let name = file.file_name().and_then(|name| name.to_str()).unwrap_or_default();
         name.starts_with(MODULE) && name.ends_with(".so")
     };
-    copied(files.iter().find(is_module).ok_or("a wheel has no extension module")?, &to)?;
+    copied(files.iter().find(is_module).ok_or("a wheel has no extension module")?, &to, None)?;
     let out = release.target.join("wheel-packed");
     emptied(&out)?;
     output_of(wheel_tool(tools).arg("pack").arg(&every).arg("--dest-dir").arg(&out))?;
     let packed = files_of(&out)?.into_iter().next().ok_or("no wheel was packed")?;
-    copied(&packed, &release.folder)
+    copied(&packed, &release.folder, None)
 }
 
 /// A command of the package `wheel`, which writes the same bytes each time.
