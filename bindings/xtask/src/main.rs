@@ -24,6 +24,7 @@ mod function_order;
 mod page;
 mod panics;
 mod release;
+mod reproducible;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
@@ -31,6 +32,9 @@ use std::process::{Command, ExitCode};
 const TARGET: &str = "wasm32-unknown-unknown";
 
 fn main() -> ExitCode {
+    if reproducible::is_compiler() {
+        return reproducible::compile();
+    }
     let mut arguments = std::env::args_os().skip(1);
     let first = arguments.next();
     let done = match first.as_deref().and_then(|a| a.to_str()) {
@@ -82,35 +86,6 @@ fn keeps_names() -> bool {
     std::env::var_os("LABSPEC_NAMES").is_some()
 }
 
-/// Flags of rustc that replace paths of this machine: the repository, the folder of cargo's files, the packages that
-/// cargo has loaded, and the sources of the standard library, if they are installed.
-fn same_paths(root: &Path, target: &Path) -> Vec<String> {
-    let home = std::env::var_os("CARGO_HOME").map(PathBuf::from);
-    let home = home.or_else(|| Some(std::env::home_dir()?.join(".cargo")));
-    // Of flags that fit, rustc takes the last one.
-    let mut places =
-        vec![(root.to_path_buf(), "labspec".to_string()), (target.to_path_buf(), "target".into())];
-    places.extend(home.map(|home| (home, "cargo".into())));
-    places.extend(standard_library());
-    let flag = |(path, name): (PathBuf, String)| {
-        format!("--remap-path-prefix={}={name}", path.canonicalize().unwrap_or(path).display())
-    };
-    places.into_iter().map(flag).collect()
-}
-
-/// Where rustup installs the sources of the standard library, and where rustc says they are if they are not installed.
-fn standard_library() -> Option<(PathBuf, String)> {
-    let output = |arguments: &[&str]| {
-        let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
-        let bytes = Command::new(rustc).args(arguments).output().ok()?.stdout;
-        String::from_utf8(bytes).ok()
-    };
-    let root = PathBuf::from(output(&["--print", "sysroot"])?.trim());
-    let version = output(&["-vV"])?;
-    let commit = version.lines().find_map(|line| line.strip_prefix("commit-hash: "))?;
-    Some((root.join("lib/rustlib/src/rust"), format!("/rustc/{commit}")))
-}
-
 fn build(folder: Option<PathBuf>) -> Result<PathBuf, String> {
     let crates = Path::new(env!("CARGO_MANIFEST_DIR")).with_file_name("wasm");
     let web = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../web");
@@ -130,7 +105,8 @@ fn build(folder: Option<PathBuf>) -> Result<PathBuf, String> {
         let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
         cargo.args(["build", "--profile", &profile, "--quiet", "--locked", "--target", TARGET]);
         // With the flags of `.cargo/config.toml`.
-        let flags = same_paths(&page::root(), &target);
+        let flags = reproducible::same_paths(&page::root(), &target);
+        reproducible::same_names(&mut cargo)?;
         cargo.arg("--config").arg(format!("target.{TARGET}.rustflags={flags:?}"));
         let built = cargo.args(features).current_dir(&crates).status();
         if !built.map_err(|e| format!("cannot run cargo: {e}"))?.success() {

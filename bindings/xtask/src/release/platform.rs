@@ -1,6 +1,7 @@
 //! The machines for which a release is built, and how cargo builds for them.
 
 use super::Release;
+use crate::reproducible::{same_names, same_paths};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -140,22 +141,27 @@ impl Platform {
         release: &Release,
         processor: &Processor,
         purpose: &str,
-    ) -> (Command, PathBuf) {
+    ) -> Result<(Command, PathBuf), String> {
         let name = processor.name.unwrap_or(&self.triple);
         let folder = release.target.join(format!("{purpose}-{name}"));
         let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
         cargo.current_dir(&release.root);
-        self.settings(&mut cargo, release, processor);
+        self.settings(&mut cargo, release, processor)?;
         cargo.env("CARGO_TARGET_DIR", &folder);
         let built = match self.cross {
             Some(_) => folder.join(&self.triple).join("release"),
             None => folder.join("release"),
         };
-        (cargo, built)
+        Ok((cargo, built))
     }
 
     /// The environment of a command that calls cargo.
-    pub(super) fn settings(&self, command: &mut Command, release: &Release, processor: &Processor) {
+    pub(super) fn settings(
+        &self,
+        command: &mut Command,
+        release: &Release,
+        processor: &Processor,
+    ) -> Result<(), String> {
         // Symbols are needed only for profiling and for reading a crash; the program has them in an archive.
         command.env("CARGO_PROFILE_RELEASE_STRIP", "symbols");
         if release.quick {
@@ -164,14 +170,16 @@ impl Platform {
             command.env("CARGO_PROFILE_RELEASE_CODEGEN_UNITS", "256");
         }
         // These flags replace those of `.cargo/config.toml`.
-        let mut flags = crate::same_paths(&release.root, &release.target);
+        let mut flags = same_paths(&release.root, &release.target);
         flags.extend(processor.name.map(|name| format!("-Ctarget-cpu={name}")));
         command.env_remove("RUSTFLAGS").env("CARGO_ENCODED_RUSTFLAGS", flags.join("\x1f"));
+        same_names(command)?;
         if let Some(cross) = self.cross {
             command.env("CARGO_BUILD_TARGET", &self.triple);
             let triple = self.triple.to_uppercase().replace('-', "_");
             command.env(format!("CARGO_TARGET_{triple}_LINKER"), cross.linker);
         }
+        Ok(())
     }
 
     /// A command that runs a program of this platform here, or `None` if it cannot be run.

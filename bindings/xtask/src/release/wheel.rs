@@ -91,7 +91,7 @@ fn build(
     let mut maturin = Command::new(tools.join("bin/maturin"));
     maturin.args(["build", "--release", "--quiet", "--locked", "--out"]).arg(&out);
     maturin.args(Platform::sizes(release));
-    platform.settings(&mut maturin, release, processor);
+    platform.settings(&mut maturin, release, processor)?;
     if platform.is_here() {
         maturin.args(["--interpreter", python]);
     } else {

@@ -16,6 +16,7 @@ import { createComparison } from "./comparison.js";
 import { createControls } from "./controls.js";
 import { INTEGRATOR } from "./integrators.js";
 import { layOut } from "./layout.js";
+import { answered, forgetPaced, showPaced } from "./pace.js";
 import { createPlayer, type Player } from "./player.js";
 import { createReadouts } from "./readouts.js";
 import { createSpoken } from "./spoken.js";
@@ -69,10 +70,9 @@ export async function openPanel(spec: LabSpec, models: Models, state: Uint8Array
   const title = spec.title === "" ? say("lab") : spec.title;
   const spoken = createSpoken(say);
   const wantsNoMotion = matchMedia("(prefers-reduced-motion: reduce)").matches;
-  let [frame, isStale, atStart]: [Frame, boolean, boolean] = [opened.frame, false, true];
+  let [frame, atStart]: [Frame, boolean] = [opened.frame, true];
 
   const show = (): void => {
-    isStale = false;
     viewport.setFrame(frame.scene);
     viewport.draw();
     for (const plot of plots) plot.draw();
@@ -92,10 +92,7 @@ export async function openPanel(spec: LabSpec, models: Models, state: Uint8Array
     for (const plot of plots) plot.add(next.rows, opened.shown.length + 1);
     const sentences = spoken.report(next.events);
     next.events.forEach((event, i) => events.event(event, sentences[i] ?? sentences[0] ?? ""));
-    if (!isStale) {
-      isStale = true;
-      requestAnimationFrame(show);
-    }
+    showPaced(show);
   };
   /** Obeys a request of a program. */
   const obey = (playback: Frame["playback"]): void => {
@@ -116,7 +113,11 @@ export async function openPanel(spec: LabSpec, models: Models, state: Uint8Array
   });
   const move = (label: string, value: ControlValue | null): Promise<void> => {
     const done = value === null ? player.press(label) : player.set(label, value);
-    return done.then(() => events.change(label, value, frame.time), () => undefined);
+    return done.then(() => {
+      readouts.show(frame.texts);
+      answered();
+      events.change(label, value, frame.time);
+    }, () => undefined);
   };
   const viewport = createViewport(opened, spec, say, {
     drag: (drag) => void player.drag(drag), say: spoken.say, released: () => viewBar.showReleased(),
@@ -201,6 +202,7 @@ export async function openPanel(spec: LabSpec, models: Models, state: Uint8Array
       if (atStart) show();
     },
     dispose() {
+      forgetPaced(show);
       player.close();
       viewport.dispose();
       for (const plot of plots) plot.dispose();
