@@ -6,8 +6,8 @@ import { formatNumber, formatUnit } from "../text/numbers.js";
 export interface ControlPanel {
   readonly elements: readonly HTMLElement[];
   readonly buttons: readonly HTMLElement[];
-  /** Shows the values of the controls, except the control that is being moved. */
-  show(values: readonly (ControlValue | null)[]): void;
+  /** Shows the values of the controls, except those that are being moved. */
+  show(values: readonly (ControlValue | null)[], isMoving: (label: string) => boolean): void;
 }
 
 export interface ControlActions {
@@ -27,7 +27,9 @@ export function createControls(controls: readonly Control[], actions: ControlAct
   return {
     elements: parts.filter((_, i) => !isButton(i)).map((part) => part.element),
     buttons: parts.filter((_, i) => isButton(i)).map((part) => part.element),
-    show: (values) => parts.forEach((part, i) => part.show(values[i] ?? null)),
+    show: (values, isMoving) => parts.forEach((part, i) => {
+      if (!isMoving(controls[i]?.label ?? "")) part.show(values[i] ?? null);
+    }),
   };
 }
 

@@ -8,7 +8,7 @@
 const BUDGET = 10;
 /** A picture that takes longer is slow, ms. */
 const SLOW = 40;
-/** The page rests for this multiple of the time of a slow picture, and at most for this time, ms. */
+/** After a slow picture, and after one over the budget while others wait, there is none for this multiple of its time, and at most for this time, ms. */
 const REST = 2, MOST_REST = 1000;
 /** Pictures that take longer than the budget wait for the answer to what the reader did, at most for this time, ms. */
 const ANSWER = 100;
@@ -63,7 +63,7 @@ function showFrame(): void {
     guarded(draw);
     isDrawnSince = true;
     took = performance.now() - now;
-    if (took > SLOW) restsUntil = now + took + Math.min(REST * took, MOST_REST);
+    if (took > (pictures.size > 0 ? BUDGET : SLOW)) restsUntil = now + took + Math.min(REST * took, MOST_REST);
   }
   if (pictures.size > 0) askForFrame();
 }

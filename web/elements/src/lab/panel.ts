@@ -76,9 +76,12 @@ export async function openPanel(spec: LabSpec, models: Models, state: Uint8Array
     viewport.setFrame(frame.scene);
     viewport.draw();
     for (const plot of plots) plot.draw();
-    readouts.show(frame.texts);
-    controls.show(frame.values);
+    showValues();
     toolbar.showTime(frame.time);
+  };
+  const showValues = (): void => {
+    readouts.show(frame.texts);
+    controls.show(frame.values, player.isMoving);
   };
   const take = (next: Frame): void => {
     if (next.time < frame.time) {
@@ -114,7 +117,7 @@ export async function openPanel(spec: LabSpec, models: Models, state: Uint8Array
   const move = (label: string, value: ControlValue | null): Promise<void> => {
     const done = value === null ? player.press(label) : player.set(label, value);
     return done.then(() => {
-      readouts.show(frame.texts);
+      showValues();
       answered();
       events.change(label, value, frame.time);
     }, () => undefined);

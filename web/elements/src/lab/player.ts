@@ -10,6 +10,8 @@ export interface Player {
   speed: number;
   /** Whether the lab is visible. An invisible lab pauses. */
   isVisible: boolean;
+  /** Whether a control has a new value that the lab has not taken yet. */
+  isMoving(label: string): boolean;
   play(): void;
   pause(): void;
   /** Plays a number of simulated seconds at once. */
@@ -91,6 +93,7 @@ export function createPlayer(remote: RemoteLab, events: PlayerEvents): Player {
     set speed(value) { [speed, lag] = [value, 0]; },
     get isVisible() { return isVisible; },
     set isVisible(value) { isVisible = value; },
+    isMoving: (label) => moving.has(label),
     play() {
       if (stop !== null) return;
       const begin = (): void => {

@@ -1,4 +1,6 @@
 /** The content of a picture: shapes with a pose, a size, a colour and a material, and lines. Each picture fills it again. */
+import type { Eye } from "./camera.js";
+import { detailed } from "./detail.js";
 import type { Mat3, Vec3 } from "./matrix.js";
 import type { Mirror } from "./mirror.js";
 import { PATTERN, TEXTURE_MODE } from "./programs.js";
@@ -90,6 +92,7 @@ export class DrawList {
   readonly #sorted = new GrowingArray(64 * INSTANCE_SIZE);
   readonly #lines = new GrowingArray(64 * LINE_SIZE);
   #items: Placed[] = [];
+  #seen: { readonly eye: Eye; readonly height: number } | null = null;
   /** Runs of the last `finish`, and those that cast shadows. */
   runs: Run[] = [];
   shadowRuns: Run[] = [];
@@ -97,7 +100,9 @@ export class DrawList {
   /** The mirror of the scene, if it has one. */
   mirror: Mirror | null = null;
 
-  clear(): void {
+  /** Begins a picture of `height` pixels. */
+  begin(eye: Eye, height: number): void {
+    this.#seen = { eye, height };
     this.mirror = null;
     this.#items = [];
     this.lineCount = 0;
@@ -112,7 +117,8 @@ export class DrawList {
       m.emission, m.specular, m.shininess, m.reflectance, m.repeat[0], m.repeat[1], m.textureMode, i.pattern ?? PATTERN.plain,
     ];
     this.#written.data.set(values, at);
-    this.#items.push({ at, key: i });
+    const shape = this.#seen === null ? i.shape : detailed(i, this.#seen.eye, this.#seen.height);
+    this.#items.push({ at, key: shape === i.shape ? i : { ...i, shape } });
   }
 
   line(from: Vec3, to: Vec3, color: Color, width: number): void {

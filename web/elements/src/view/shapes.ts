@@ -1,4 +1,5 @@
 /** Shapes of size 1, which every geom type, site and arrow is drawn from. */
+import { LEVELS } from "./detail.js";
 
 /** Numbers of a vertex: position (3), side of the capsule (−1, 0, 1), normal (3), texture coordinates (2). */
 export const STRIDE = 9;
@@ -48,7 +49,11 @@ function quarter(rings: number, isUpper: boolean, side: number): OutlinePoint[] 
   return points;
 }
 
-const SLICES = 48, RINGS = 12;
+const ball = (slices: number): Shape => revolve([...quarter(slices / 4, true, 0), ...quarter(slices / 4, false, 0).slice(1)], slices);
+const capsule = (slices: number): Shape => revolve([...quarter(slices / 4, true, 1), ...quarter(slices / 4, false, -1)], slices);
+
+/** Slices around cylinders and cones. */
+const SLICES = 48;
 
 function box(): Shape {
   const vertices: number[] = [], indices: number[] = [];
@@ -75,14 +80,15 @@ function plane(): Shape {
   return { vertices: Float32Array.from(vertices), indices: Uint16Array.of(0, 1, 2, 0, 2, 3) };
 }
 
+type Level = (typeof LEVELS)[number][1];
+
+export type ShapeName = "plane" | "box" | `sphere${Level}` | `capsule${Level}` | "cylinder" | "cone";
+
 /** Radius 1; a capsule's half length moves its two sides apart. A cone has its base at z = 0 and its tip at z = 1. */
 export const SHAPES = {
   plane,
   box,
-  sphere: () => revolve([...quarter(RINGS, true, 0), ...quarter(RINGS, false, 0).slice(1)], SLICES),
-  capsule: () => revolve([...quarter(RINGS, true, 1), ...quarter(RINGS, false, -1)], SLICES),
+  ...Object.fromEntries(LEVELS.flatMap(([slices, level]) => [[`sphere${level}`, () => ball(slices)], [`capsule${level}`, () => capsule(slices)]])),
   cylinder: () => revolve([[0, 1, 0, 1], [1, 1, 0, 1], [1, 1, 1, 0], [1, -1, 1, 0], [1, -1, 0, -1], [0, -1, 0, -1]], SLICES),
   cone: () => revolve([[0, 1, Math.SQRT1_2, Math.SQRT1_2], [1, 0, Math.SQRT1_2, Math.SQRT1_2], [1, 0, 0, -1], [0, 0, 0, -1]], SLICES),
-} satisfies Record<string, () => Shape>;
-
-export type ShapeName = keyof typeof SHAPES;
+} as Record<ShapeName, () => Shape>;

@@ -190,9 +190,9 @@ export class SceneView implements View, Client {
     return { eye, ray: rayThrough(eye, width / height, (2 * x) / width - 1, 1 - (2 * y) / height) };
   }
 
-  #fill(frame: SceneFrame, eye: Eye): void {
+  #fill(frame: SceneFrame, eye: Eye, height: number): void {
     const list = this.#list, m = this.#model, palette = this.#palette, show = this.overlays, size = overlaySize(m);
-    list.clear();
+    list.begin(eye, height);
     pushGeoms(list, m, frame, this.#geometry, eye, palette);
     pushTendons(list, m, frame, eye);
     if (show.sites) pushSites(list, m, frame, eye);
@@ -220,7 +220,7 @@ export class SceneView implements View, Client {
     const frame = this.#frame, context = sharedContext(), target = canvas.getContext("2d");
     if (!frame || !context || !target) return false;
     const eye = placeEye(this.camera, this.#model, frame), m = this.#model, reach = planeReach(m, eye);
-    this.#fill(frame, eye);
+    this.#fill(frame, eye, height);
     this.#upload(context);
     fitCanvas(context, width, height);
     drawPicture(context, {

@@ -90,6 +90,30 @@ test("a slider, a select and a button act as the format says, and the page is to
   errors.none();
 });
 
+test("a slider that is moved does not jump back to the value of an older frame", async (t) => {
+  const { page, errors } = await open(t, "/pile.html");
+  await opened(page);
+  await page.getByRole("button", { name: "Play" }).click();
+  await page.waitForFunction(() => document.querySelector("sim-lab").time > 0);
+  const jumps = await page.evaluate(async () => {
+    const input = document.querySelector("sim-lab").shadowRoot.querySelector("input[type=range]"), jumps = [];
+    const frame = () => new Promise((resolve) => requestAnimationFrame(resolve));
+    for (let value = -15; value < -5; value += 0.5) {
+      input.value = value;
+      input.dispatchEvent(new Event("input"));
+      // The answer comes within some of these frames.
+      for (let i = 0; i < 8; i++) {
+        await frame();
+        await new Promise((resolve) => setTimeout(resolve, 0));
+        if (input.valueAsNumber !== value) jumps.push([value, input.valueAsNumber]);
+      }
+    }
+    return jumps;
+  });
+  assert.deepEqual(jumps, []);
+  errors.none();
+});
+
 test("the note is text: its script is gone", async (t) => {
   const { page, errors } = await open(t, "/drop.html");
   await opened(page);

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import test from "node:test";
 import { modules, scene } from "./common.mjs";
 
-const { SHAPES, STRIDE, meshShape, hfieldShape, rotationToZ, wrapArc, hashNumbers, nameGeometry } = await modules("shapes", "mesh", "matrix", "tendons", "geometry");
+const { SHAPES, STRIDE, meshShape, hfieldShape, rotationToZ, wrapArc, hashNumbers, nameGeometry, detailed } = await modules("shapes", "mesh", "matrix", "tendons", "geometry", "detail");
 
 /** Positions (a capsule's with its sides moved apart by `shift`), normals and triangles. */
 function unpack({ vertices, indices }, shift = 0) {
@@ -50,6 +50,7 @@ function assertNormals({ points, normals, triangles }, name, least) {
   }
 }
 
+/** The shapes with all triangles. */
 const VOLUMES = { box: 8, sphere: (4 / 3) * Math.PI, cylinder: 2 * Math.PI, cone: Math.PI / 3, capsule: (4 / 3 + 2 * 0.7) * Math.PI };
 
 for (const [name, exact] of Object.entries(VOLUMES)) {
@@ -60,6 +61,36 @@ for (const [name, exact] of Object.entries(VOLUMES)) {
     assert.ok(volume(shape) <= exact * (1 + 1e-6) && volume(shape) > 0.99 * exact, `${volume(shape)}, exactly ${exact}`);
   });
 }
+
+for (const name of ["sphere/24", "sphere/16", "capsule/24", "capsule/16"]) {
+  test(`${name}: closed, its volume, its normals`, () => {
+    const isCapsule = name.startsWith("capsule"), shape = unpack(SHAPES[name](), isCapsule ? 0.7 : 0), exact = isCapsule ? VOLUMES.capsule : VOLUMES.sphere;
+    assertClosed(shape, name);
+    assertNormals(shape, name, 0.95);
+    assert.ok(volume(shape) <= exact * (1 + 1e-6) && volume(shape) > 0.93 * exact, `${volume(shape)}, exactly ${exact}`);
+  });
+}
+
+test("small round things have fewer triangles, and an outline that is at most a quarter of a pixel inside the true one", () => {
+  const eye = { position: [0, 0, 0], right: [1, 0, 0], up: [0, 1, 0], forward: [0, 0, -1], halfHeight: 0.5, isOrthographic: false, near: 0.1, far: 100 };
+  const ball = (radius, depth) => ({ shape: "sphere", position: [0, 0, -depth], scale: [radius, radius, radius] });
+  // Radius in pixels of a picture of 400: 400 r / d.
+  assert.equal(detailed(ball(0.01, 1), eye, 400), "sphere/16");
+  assert.equal(detailed(ball(0.05, 1), eye, 400), "sphere/24");
+  assert.equal(detailed(ball(0.2, 1), eye, 400), "sphere");
+  assert.equal(detailed(ball(0.2, 40), eye, 400), "sphere/16");
+  assert.equal(detailed({ ...ball(0.01, 1), shape: "capsule", shift: 0.2 }, eye, 400), "capsule/16");
+  // Around the eye, behind it, and without a perspective.
+  assert.equal(detailed(ball(0.01, 0.005), eye, 400), "sphere");
+  assert.equal(detailed({ ...ball(0.01, 1), shape: "capsule", shift: 2 }, eye, 400), "capsule");
+  assert.equal(detailed(ball(0.01, 40), { ...eye, isOrthographic: true }, 400), "sphere/16");
+  assert.equal(detailed({ ...ball(0.01, 1), shape: "box" }, eye, 400), "box");
+  for (let radius = 0.001; radius < 0.5; radius *= 1.1) {
+    const name = detailed(ball(radius, 1), eye, 400), pixels = (400 * radius) / (1 - radius);
+    const slices = SHAPES[name]().vertices.filter((_, i) => i % STRIDE === 2).filter((z) => z === 0).length - 1;
+    assert.ok((1 - Math.cos(Math.PI / slices)) * pixels <= 0.25 || name === "sphere", `${name} for ${pixels} pixels`);
+  }
+});
 
 test("a capsule without length is a ball", () => {
   const shape = SHAPES.capsule(), { points } = unpack(shape);
