@@ -81,10 +81,16 @@ float lit(vec3 n) {
   vec4 p = u_shadowMatrix * vec4(v_world + n * u_shadowTexel.y, 1);
   vec3 q = p.xyz / p.w * 0.5 + 0.5;
   if (p.w <= 0.0 || any(lessThan(q, vec3(0))) || any(greaterThan(q, vec3(1)))) return 1.0;
+  // The mean of 5 × 5 comparisons, each between four texels, is one of 6 × 6 texels: the outer ones count in part. Nine comparisons, each
+  // between the four texels that it covers, have the same weights.
+  vec2 t = q.xy / u_shadowTexel.x - 0.5, first = floor(t), f = t - first;
+  vec2 weights[3] = vec2[3](2.0 - f, vec2(2), 1.0 + f);
+  vec2 offsets[3] = vec2[3](1.0 / (2.0 - f) - 1.5, vec2(1), 2.5 + f / (1.0 + f));
   float sum = 0.0;
-  for (int y = -2; y <= 2; y++)
-    for (int x = -2; x <= 2; x++)
-      sum += texture(u_shadow, vec3(q.xy + vec2(x, y) * u_shadowTexel.x, q.z - u_shadowTexel.z));
+  for (int y = 0; y < 3; y++)
+    for (int x = 0; x < 3; x++)
+      sum += weights[x].x * weights[y].y
+        * texture(u_shadow, vec3((first + vec2(offsets[x].x, offsets[y].y)) * u_shadowTexel.x, q.z - u_shadowTexel.z));
   return sum / 25.0;
 }
 

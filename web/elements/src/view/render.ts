@@ -150,11 +150,11 @@ function drawOverlays(context: SharedContext, p: Picture, projection: Mat4): voi
 /** Everything but overlays. */
 function drawSurfaces(context: SharedContext, p: Picture): void {
   const { gl } = context.gpu;
-  gl.disable(gl.BLEND);
+  gl.enable(gl.BLEND);
   gl.depthMask(true);
   gl.enable(gl.CULL_FACE);
+  gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
   drawLayer(context, p, LAYER.opaque);
-  gl.enable(gl.BLEND);
   gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
   gl.disable(gl.CULL_FACE);
   drawLayer(context, p, LAYER.plane);
