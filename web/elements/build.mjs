@@ -46,13 +46,17 @@ async function engine() {
   return outputFiles[0].text;
 }
 
-const [program, packed] = [await engine(), (await compressed(at("../labspec/generated/player/labspec_bg.wasm"))).toString("base64")];
+const generated = (name) => at("../labspec/generated", name);
+const program = await engine();
+const packed = { module: await compressed(generated("player/labspec_bg.packed")), unpacker: readFileSync(generated("unpack.wasm")) };
 const made = {
   name: "made",
   setup(b) {
     b.onResolve({ filter: /^#(engine|module)$/ }, ({ path }) => ({ path, namespace: "made" }));
     b.onLoad({ filter: /^#engine$/, namespace: "made" }, () => ({ contents: `export function serve(channel) {\n${program}\n}` }));
-    b.onLoad({ filter: /^#module$/, namespace: "made" }, () => ({ contents: `export default "${packed}";` }));
+    const texts = Object.fromEntries(Object.entries(packed).map(([name, bytes]) => [name, bytes.toString("base64")]));
+    const contents = `import { compilePacked } from "./packed.js"; export const compile = () => compilePacked(${JSON.stringify(texts)});`;
+    b.onLoad({ filter: /^#module$/, namespace: "made" }, () => ({ contents, resolveDir: at("../labspec/src") }));
   },
 };
 

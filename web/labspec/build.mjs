@@ -69,9 +69,11 @@ async function bundle(folder, module) {
   mkdirSync(out, { recursive: true });
   const wasm = at("generated", module, "labspec_bg.wasm");
   copyFileSync(wasm, join(out, "labspec.wasm"));
+  const packed = at("generated", module, "labspec_bg.packed");
   // The checker is twice as large, and rarely part of a script.
-  const text = (module === "player" ? await compressed(wasm) : gzipSync(readFileSync(wasm), { level: 9 })).toString("base64");
-  writeFileSync(join(out, "inline-module.js"), `export default "${text}";\n`);
+  const text = module === "player" ? await compressed(packed) : gzipSync(readFileSync(packed), { level: 9 });
+  const texts = { module: text, unpacker: readFileSync(at("generated/unpack.wasm")) };
+  writeFileSync(join(out, "inline-module.js"), Object.entries(texts).map(([name, bytes]) => `export const ${name} = "${bytes.toString("base64")}";\n`).join(""));
   const glue = { name: "glue", setup: (b) => b.onResolve({ filter: /^#glue$/ }, () => ({ path: at("generated", module, "labspec.js") })) };
   const outside = ["./labspec.wasm", "./inline-module.js", "node:*"];
   const common = { bundle: true, outdir: out, target: "es2022", legalComments: "none", external: outside, logLevel: "warning" };

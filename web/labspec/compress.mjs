@@ -1,4 +1,4 @@
-// The module as gzip for scripts that contain it: smaller than zlib makes it, in a minute instead of a second.
+// The packed module as gzip for scripts that contain it: smaller than zlib makes it, in a minute instead of a second.
 import zopfli from "@gfx/zopfli";
 import { existsSync, readFileSync, writeFileSync } from "node:fs";
 import { gunzipSync } from "node:zlib";

@@ -21,6 +21,7 @@
 //! (`docs/site`).
 
 mod function_order;
+mod pack;
 mod page;
 mod panics;
 mod release;
@@ -151,8 +152,36 @@ fn build(folder: Option<PathBuf>) -> Result<PathBuf, String> {
                 }
             }
         }
+        packed(&inside.join("labspec_bg.wasm"))?;
     }
+    unpacker(&web, &web.join("labspec/generated"))?;
     Ok(folder)
+}
+
+/// Writes a module beside itself in the order in which scripts contain it: see [`pack`].
+fn packed(module: &Path) -> Result<(), String> {
+    let failed = |e: std::io::Error| format!("{}: {e}", module.display());
+    let bytes = std::fs::read(module).map_err(failed)?;
+    let packed = pack::pack(&bytes).map_err(|why| format!("{}: {why}", module.display()))?;
+    std::fs::write(module.with_extension("packed"), packed).map_err(failed)
+}
+
+/// Builds the module that restores packed modules in a page.
+fn unpacker(web: &Path, generated: &Path) -> Result<(), String> {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).with_file_name("unpack");
+    let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| source.join("target"), PathBuf::from);
+    let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    cargo.args(["build", "--release", "--quiet", "--locked", "--target", TARGET]).current_dir(&source);
+    let flags = reproducible::same_paths(&page::root(), &target);
+    cargo.arg("--config").arg(format!("target.{TARGET}.rustflags={flags:?}"));
+    if !cargo.status().map_err(|e| format!("cannot run cargo: {e}"))?.success() {
+        return Err("what restores packed modules was not built".into());
+    }
+    let file = generated.join("unpack.wasm");
+    std::fs::copy(target.join(TARGET).join("release/labspec_unpack.wasm"), &file)
+        .map_err(|e| format!("{}: {e}", file.display()))?;
+    panics::to_traps(&file)?;
+    optimize(web, &file)
 }
 
 /// Makes a module smaller, where `wasm-opt` is installed: optimizes it, then puts functions that share code next to each other.

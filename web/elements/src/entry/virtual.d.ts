@@ -4,8 +4,7 @@ declare module "#engine" {
   export function serve(channel: Channel): void;
 }
 
-/** Made by build.mjs: the compressed module in base64. */
+/** Made by build.mjs: the module, which is part of the script. */
 declare module "#module" {
-  const text: string;
-  export default text;
+  export function compile(): Promise<WebAssembly.Module>;
 }

@@ -1,3 +1,3 @@
-/** The module, compressed, in base64. */
-declare const text: string;
-export default text;
+/** The module: see `PackedModule`. */
+export declare const module: string;
+export declare const unpacker: string;
