@@ -14,10 +14,10 @@
 #[cfg(target_arch = "wasm32")]
 mod page;
 
-/// The names of the streams. The constants before an operator are a stream whose name is `CONSTANTS` plus the operator.
+/// The names of the streams. The constants before an operator are a stream whose name is `CONSTANTS` plus the operator, and the locals that
+/// are read before an operator are one whose name is `GETS` plus the kind of the operator.
 pub mod stream {
     pub const OPERATORS: usize = 0;
-    pub const GET: usize = 1;
     pub const SET: usize = 2;
     pub const TEE: usize = 3;
     pub const LOADS: usize = 4;
@@ -30,6 +30,7 @@ pub mod stream {
     pub const WIDE: usize = 11;
     pub const FLOATS: usize = 12;
     pub const OTHER: usize = 13;
+    pub const GETS: usize = 16;
     pub const CONSTANTS: usize = 32;
     /// Larger than every name.
     pub const NAMES: usize = CONSTANTS + 256;
@@ -87,7 +88,10 @@ pub fn copy_function(transfer: &mut impl Transfer) -> Result<(), Damaged> {
                 let types = transfer.number(stream::OTHER)?;
                 transfer.bytes(stream::OTHER, types)?;
             }
-            0x20 => transfer.number(stream::GET).map(drop)?,
+            0x20 => {
+                let following = kind(transfer.following()?);
+                transfer.number(stream::GETS + following)?;
+            }
             0x21 => transfer.number(stream::SET).map(drop)?,
             0x22 => transfer.number(stream::TEE).map(drop)?,
             0x28..=0x3e => {
@@ -120,6 +124,22 @@ pub fn copy_function(transfer: &mut impl Transfer) -> Result<(), Damaged> {
         }
     }
     Ok(())
+}
+
+/// Kinds of operators before which other locals are read.
+fn kind(operator: u8) -> usize {
+    match operator {
+        0x20 => 1,
+        0x21 => 2,
+        0x22 => 3,
+        // Loads, stores, constants, control, calls.
+        0x28..=0x35 => 4,
+        0x36..=0x3e => 5,
+        0x41 | 0x42 => 6,
+        0x02..=0x04 | 0x0b..=0x0d => 7,
+        0x10 | 0x11 => 8,
+        _ => 0,
+    }
 }
 
 /// The number after the first byte of an operator.

@@ -95,6 +95,8 @@ const lines = [
   "|---|---:|---:|---:|---:|",
   `| player | ${size(join(root, "dist/labspec.wasm")).join(" | ")} | 840,000 |`,
   `| checker, which contains the player | ${size(join(root, "dist/checker/labspec.wasm")).join(" | ")} | 1,300,000 |`,
+  `| player in scripts: packed | ${size(join(root, "generated/player/labspec_bg.packed")).join(" | ")} | |`,
+  `| checker in scripts: packed | ${size(join(root, "generated/checker/labspec_bg.packed")).join(" | ")} | |`,
   `| official | ${size(join(official, "mujoco.wasm")).join(" | ")} | |`,
 ];
 console.log(lines.join("\n"));
