@@ -97,6 +97,7 @@ mod sources;
 mod stability;
 mod standing;
 mod steady;
+mod stop_time;
 mod structure;
 mod students;
 mod support;
