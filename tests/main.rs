@@ -101,6 +101,7 @@ mod stop_time;
 mod structure;
 mod students;
 mod support;
+mod table_rows;
 mod terminal;
 mod touching;
 #[cfg(unix)]
