@@ -67,6 +67,7 @@ mod no_run;
 mod numbers;
 mod parity;
 mod partners;
+mod perturbed_starts;
 mod plan;
 mod plan_stages;
 mod planned;

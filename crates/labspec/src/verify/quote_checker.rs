@@ -3,6 +3,7 @@
 use super::bound::BoundVerify;
 use super::found::MeasuredValue;
 use super::grounded::grounded_value;
+use super::numerics::QuotedChange;
 use super::outcome::MeasuredRuns;
 use super::outcomes::Outcomes;
 use super::quote::RenderedText;
@@ -84,11 +85,11 @@ impl QuotedValue {
     ) -> Result<QuotedValue, String> {
         let QuoteChecker { bound, outcomes, .. } = checker;
         let found = grounded_value(bound, &outcomes.nominal, expr, findings)?;
-        let other = |n: usize, how| value_of(bound, outcomes.perturbed.get(n)?.as_ref()?, expr, how);
-        let back = "with a start moved by -1e-14";
-        let mut start: Vec<OtherValue> = other(2, "with a start moved by 1e-14").into_iter().collect();
-        start.extend(outcomes.perturbed_back.as_ref().and_then(|o| value_of(bound, o, expr, back)));
-        Ok(QuotedValue { found, timestep: other(0, "at half the timestep").into_iter().collect(), start })
+        let others = |change: QuotedChange| -> Vec<OtherValue> {
+            outcomes.quoted(change).filter_map(|(o, how)| value_of(bound, o, expr, how)).collect()
+        };
+        let (timestep, start) = (others(QuotedChange::Timestep), others(QuotedChange::Start));
+        Ok(QuotedValue { found, timestep, start })
     }
 
     pub(super) fn is_condition(&self) -> bool {
