@@ -90,6 +90,7 @@ mod scaffold;
 mod scenery;
 mod scenes;
 mod schema;
+mod search_brackets;
 mod settings;
 mod site;
 mod sleep;

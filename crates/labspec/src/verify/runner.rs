@@ -75,12 +75,13 @@ fn key(request: &RunRequest<'_, '_>) -> String {
         let set: Vec<_> = spec.set.iter().map(|(label, v)| (label.as_str(), scalar(v))).collect();
         let press: Vec<_> = spec.press.iter().map(|(label, t)| (label.as_str(), t.value)).collect();
         let length = [&spec.until, &spec.steps].map(|n| n.as_ref().map(|n| n.value));
-        let controls: Vec<_> = run.controls.iter().map(|(label, x)| (label.as_str(), x)).collect();
         let code = [&spec.setup, &spec.stop].map(|t| t.as_ref().map(|t| t.as_str()));
-        format!("{set:?} {controls:?} {press:?} {length:?} {code:?}")
+        format!("{set:?} {press:?} {length:?} {code:?}")
     });
+    // A search sets controls of the only run of an object without `runs`, too.
+    let controls: Vec<_> = run.controls.iter().map(|(label, x)| (label.as_str(), x)).collect();
     let labs = format!("{:?} {} {:?} {:?}", lab.span, scene.scene.model.identity(), lab.key, lab.controller);
-    format!("{labs} {of_run:?} {numerics:?} {texts:?}")
+    format!("{labs} {of_run:?} {controls:?} {numerics:?} {texts:?}")
 }
 
 /// A run after its setup, and the data for playing it.
@@ -140,10 +141,8 @@ pub(super) fn prepare_run<'r>(
         )));
         return None;
     }
-    let stop = run::stop_time(lab, until, steps, count).map(|stop| StopTime {
-        most: stop.most.min(MAX_VERIFY_STEPS).max(count),
-        ..stop
-    });
+    let stop = run::stop_time(lab, until, steps, count)
+        .map(|stop| StopTime { most: stop.most.min(MAX_VERIFY_STEPS).max(count), ..stop });
     Some(PreparedRun { session, press, count, stop, open: None })
 }
 
