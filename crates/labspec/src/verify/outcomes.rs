@@ -17,6 +17,7 @@ impl BoundVerify<'_> {
         for find in &self.verify.find {
             let limit = self.search(find, numerics, findings)?;
             outcome.found.push((find.name.value.clone(), limit.value));
+            outcome.other_ends.push(limit.other_end);
             outcome.looked.push(limit.looked);
         }
         Some(outcome)
