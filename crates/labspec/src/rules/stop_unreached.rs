@@ -29,14 +29,20 @@ pub(crate) fn check_stop_reached(observed: &ObservedLab<'_>, findings: &mut Vec<
     };
     let times = || nominal.rows.iter().filter_map(|row| row.first()).map(|cell| cell.number());
     let last = times().fold(f64::NEG_INFINITY, f64::max);
+    if last >= stop.value - 1.5 * timestep {
+        return;
+    }
     let back = times().zip(times().skip(1)).find(|(a, b)| b < a);
-    let (Some((before, after)), true) = (back, last < stop.value - 1.5 * timestep) else { return };
-    let [stop_at, last, before, after] = [stop.value, last, before, after].map(|x| digits(x, 4));
+    let [stop_at, last] = [stop.value, last].map(|x| digits(x, 4));
+    let why = match back.map(|(before, after)| [before, after].map(|x| digits(x, 4))) {
+        Some([before, after]) => {
+            format!("in the run, time goes from {before} s back to {after} s, and never exceeds {last} s")
+        }
+        None => format!("in the run, time never exceeds {last} s: something resets it in every step"),
+    };
     findings.push(
         Finding::warning(STOP_UNREACHED, stop.span.clone(), format!("the lab never reaches {stop_at} s"))
-            .why(format!(
-                "in the run, time goes from {before} s back to {after} s, and never exceeds {last} s"
-            ))
+            .why(why)
             .help("find what resets the simulation while it runs, or stop earlier"),
     );
 }

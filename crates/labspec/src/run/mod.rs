@@ -28,7 +28,7 @@ pub use integrator::{INTEGRATORS, Integrator, sets_integrator};
 pub use labspec_finding::two_digits;
 pub use labspec_monitors::stability::{how_stiff, owner};
 pub use messages::{describe_breakdown, error_finding};
-pub use play::{Play, play};
+pub use play::{Play, StopTime, play};
 pub use program_error::ProgramError;
 pub use samples::Samples;
 pub use session::{Session, Start};
@@ -106,7 +106,14 @@ fn stated_length(lab: &Lab) -> Option<f64> {
     lab.stop_at.as_ref().map(|stop| stop.value).filter(|length| *length > 0.0)
 }
 
-/// Number of steps of a length.
+/// The time at which a run of a lab ends; `None` for a run whose length is given, or that of a lab without `stopAt`. `count`
+/// is the number of steps up to this time.
+pub fn stop_time(lab: &Lab, until: Option<f64>, steps: Option<usize>, count: usize) -> Option<StopTime> {
+    let is_given = until.is_some() || steps.is_some();
+    stated_length(lab).filter(|_| !is_given).map(|time| StopTime::after(time, count))
+}
+
+/// Number of steps of a length. Up to the `stopAt` of a lab, it is that of the first sample with this time or a later one.
 ///
 /// # Errors
 /// More than [`MAX_STEPS`].
@@ -130,8 +137,10 @@ pub fn count_steps(
             text(length)
         )));
     }
-    // Rounds like JavaScript's Math.round, as a page does.
-    let count = (length / timestep + 0.5).floor();
+    let count = match until.is_none() && stated_length(lab).is_some() {
+        true => StopTime::steps_until(length, timestep),
+        false => (length / timestep + 0.5).floor(),
+    };
     if !(0.0..=MAX_STEPS as f64).contains(&count) {
         return Err(RunError::new(match timestep > 0.0 {
             true => format!(
@@ -150,8 +159,9 @@ pub fn count_steps(
 pub(crate) struct StartedRun<'p> {
     pub(crate) session: Session<'p>,
     pub(crate) samples: Samples<'p>,
-    /// Number of steps, and of steps between two samples.
+    /// Number of steps, the time at which the run ends, and the number of steps between two samples.
     pub(crate) steps: usize,
+    pub(crate) stop: Option<StopTime>,
     pub(crate) every: usize,
     /// Buttons and the times of their presses, s, in order of time.
     pub(crate) presses: Vec<(usize, f64)>,
@@ -193,7 +203,10 @@ pub(crate) fn begin<'p>(
         )));
     }
     let samples = Samples::new(programs, steps / every + 2);
-    Ok(StartedRun { session, samples, steps, every, presses, timestep })
+    let most_samples = MAX_CELLS / (programs.probes.len() + 1).max(width / 4);
+    let stop = stop_time(lab, options.until, options.steps, steps)
+        .map(|stop| StopTime { most: stop.most.min(most_samples.saturating_mul(every)).max(steps), ..stop });
+    Ok(StartedRun { session, samples, steps, stop, every, presses, timestep })
 }
 
 /// Takes a sample; stops the run when that is not possible.
@@ -212,7 +225,7 @@ pub(crate) fn take(samples: &mut Samples<'_>, session: &mut Session<'_>) -> Cont
 /// # Errors
 /// The displayed texts are too long.
 pub(crate) fn finish(started: StartedRun<'_>, made: usize) -> Result<Table, RunError> {
-    let StartedRun { session, samples, timestep, .. } = started;
+    let StartedRun { session, samples, timestep, steps, stop, .. } = started;
     if samples.text() > MAX_TEXT {
         return Err(RunError::new(format!(
             "the texts of the readouts exceed {} MB after {made} steps; display numbers or short texts, or sample less often with --every",
@@ -222,7 +235,18 @@ pub(crate) fn finish(started: StartedRun<'_>, made: usize) -> Result<Table, RunE
     let mut table = Table::new(timestep, session.probes());
     table.rows = samples.rows();
     table.finish(&session);
+    let played = Play { stop, ..Play::steps(steps) };
+    table.errors.extend(describe_unreached(&played, &session, made));
     Ok(table)
+}
+
+/// Why a run of `made` steps did not end at its stop time, if it was ended before it.
+pub(crate) fn describe_unreached(play: &Play<'_>, session: &Session<'_>, made: usize) -> Option<String> {
+    let stop = play.stop.filter(|_| play.is_unreached(session, made))?;
+    let [stop_at, current] = [stop.time, session.world.data.time()].map(time);
+    Some(format!(
+        "time does not reach the `stopAt` of {stop_at} s: after {made} steps, the limit, it is {current} s"
+    ))
 }
 
 /// Runs a lab and samples every trace and readout: at the start, then after every `every` steps and after the last.
@@ -231,8 +255,8 @@ pub(crate) fn finish(started: StartedRun<'_>, made: usize) -> Result<Table, RunE
 /// A control that does not exist, a setting that a student cannot choose, or a run that is too long.
 pub fn run(lab: &Lab, model: &Model, programs: &Programs, options: &RunOptions) -> Result<Table, RunError> {
     let mut started = begin(lab, model, programs, options, &programs.access)?;
-    let StartedRun { session, samples, steps, every, presses, .. } = &mut started;
-    let played = Play { steps: *steps, every: *every, presses, watched: true };
+    let StartedRun { session, samples, steps, stop, every, presses, .. } = &mut started;
+    let played = Play { steps: *steps, stop: *stop, every: *every, presses, watched: true };
     let made = play(session, &played, |session, _| take(samples, session));
     finish(started, made)
 }

@@ -242,18 +242,21 @@ impl<'a> StressCase<'a> {
         let timestep = session.world.model.opt.timestep;
         let steps = self.steps(timestep, length);
         let mut watcher = self.watcher(interaction, &session);
-        let played = Play { steps, every: 1, presses: &[], watched: true };
+        let reaches_stop = self.lab.stop_at.as_ref().is_some_and(|stop| stop.value <= length);
+        let stop = run::stop_time(self.lab, None, None, steps).filter(|_| reaches_stop);
+        let played = Play { stop, watched: true, ..Play::steps(steps) };
         let made = run::play(&mut session, &played, |session, made| {
-            watcher.observe(session, made, made == steps);
+            watcher.observe(session, made, played.is_over(session, made));
             let over = DIVERGED.iter().any(|&w| warned(session, w).is_some());
             if over { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
+        let is_whole = made == steps || session.ended().is_none() && played.is_over(&session, made);
         let speeds = watcher.watch.drift_speeds(&session.world.model);
         let touching = watcher.watch.touching();
         let faults = watcher.faults(&session);
         let outcome = RunOutcome {
             faults,
-            covered: if made == steps { length } else { made as f64 * timestep },
+            covered: if is_whole { length } else { made as f64 * timestep },
             spent: session.spent(),
             speeds,
             touching,

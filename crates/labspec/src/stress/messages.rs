@@ -172,24 +172,25 @@ pub fn watched_run(
     let presses: Vec<Action> =
         started.presses.iter().map(|&(control, time)| Action { time, control, value: None }).collect();
     let pressed = Interaction { kind: InteractionKind::AsItStands, actions: presses };
-    let StartedRun { session, samples, steps, every, .. } = &mut started;
-    let (steps, every) = (*steps, *every);
+    let StartedRun { session, samples, steps, stop, every, .. } = &mut started;
+    let (steps, stop, every) = (*steps, *stop, *every);
     let mut watcher = case.table_watcher(&pressed, session);
-    let played = Play { steps, every: 1, presses: &[], watched: true };
+    let played = Play { stop, watched: true, ..Play::steps(steps) };
     let made = run::play(session, &played, |session, made| {
         if made == 0 {
             watcher.press_at_start(session);
         }
-        let sampled = if made.is_multiple_of(every) || made == steps {
+        let is_over = played.is_over(session, made);
+        let sampled = if made.is_multiple_of(every) || is_over {
             run::take(samples, session)
         } else {
             ControlFlow::Continue(())
         };
-        watcher.observe(session, made, made == steps);
+        watcher.observe(session, made, is_over);
         sampled
     });
     let timestep = started.session.world.model.opt.timestep;
-    let (length, faults) = (made as f64 * timestep, watcher.faults(&started.session));
+    let (length, faults) = (made.min(steps) as f64 * timestep, watcher.faults(&started.session));
     let mut left = WORK;
     let (faults, _) = without_pushed_bodies(&case, &base, faults, length, left);
     let mut table = run::finish(started, made)?;

@@ -379,7 +379,14 @@ impl<'a> BoundVerify<'a> {
                 broke: made.broke,
             });
         }
-        Some(MeasuredRuns { runs, found: Vec::new(), looked: Vec::new(), numerics, elsewhere: Vec::new() })
+        Some(MeasuredRuns {
+            runs,
+            found: Vec::new(),
+            other_ends: Vec::new(),
+            looked: Vec::new(),
+            numerics,
+            elsewhere: Vec::new(),
+        })
     }
 
     pub(super) fn execute_run(

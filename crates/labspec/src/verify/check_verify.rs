@@ -41,7 +41,7 @@ pub(crate) fn check_nominal(
     let findings = &mut Vec::new();
     let nominal = bound.outcome(StepVariant::NOMINAL, findings)?;
     let perturbed = std::array::from_fn(|_| Some(nominal.clone()));
-    let outcomes = Outcomes { nominal, perturbed, perturbed_back: None };
+    let outcomes = Outcomes { nominal, perturbed };
     Some(judge(bound, &outcomes, verify, question, rendered, findings))
 }
 

@@ -2,6 +2,7 @@
 //! describes.
 
 use super::claim::with_suffix;
+use super::format::significant;
 use super::grounded::grounded_value;
 use super::layout::name_of_axis;
 use super::quote;
@@ -19,6 +20,8 @@ use labspec_expr::dimension::Dimension;
 const CELL_WORK: u64 = 1000;
 /// Maximum number of different words in the cells of a column.
 const MOST_WORDS: usize = 20;
+/// Maximum number of values in a message.
+const MOST_LISTED: usize = 6;
 
 /// Compares a column, or one cell of it, with the measured values.
 pub(super) fn check_column(
@@ -102,7 +105,7 @@ impl SweepRows<'_> {
     /// The member that a row describes, by its key cell.
     ///
     /// # Errors
-    /// No value of the sweep equals the number in the cell.
+    /// No value of the sweep equals the number in the cell, or several do.
     fn member(&self, key: &Text) -> Result<usize, Box<Finding>> {
         let read = quote::read_quote_in(&key.value, self.languages).ok();
         let unit = read.as_ref().and_then(|read| read.unit().cloned()).or_else(|| self.key_head.clone());
@@ -117,19 +120,41 @@ impl SweepRows<'_> {
             (quote::UnitMatch::Wrong, None) => None,
             _ => Some(1.0),
         };
-        let is_key =
-            |x: f64| read.as_ref().zip(factor).is_some_and(|(read, factor)| read.number().is(factor * x));
-        self.values.iter().position(|x| is_key(*x)).ok_or_else(|| {
-            let other = unit.filter(|_| factor.is_none()).map_or(String::new(), |unit| {
-                format!(": the column is in {}, but the values are in another unit", unit.text)
-            });
-            let message = format!("no run covers the row \"{}\"{other}", key.value);
-            let finding = Finding::new(rules::QUOTE_UNCLEAR, key.span(), message)
-                .why("the number in this row was compared with nothing")
-                .help("add this value to the sweep, or correct the row")
-                .related(self.list.span(), "the values of the sweep");
-            Box::new(finding)
-        })
+        let scaled: Vec<f64> =
+            self.values.iter().map(|x| factor.map_or(f64::NAN, |factor| factor * x)).collect();
+        match read.as_ref().map_or(Vec::new(), |read| quote::stated_values(read, &scaled)).as_slice() {
+            [member] => Ok(*member),
+            [] => {
+                let other = unit.filter(|_| factor.is_none()).map_or(String::new(), |unit| {
+                    format!(": the column is in {}, but the values are in another unit", unit.text)
+                });
+                let message = format!("no run covers the row \"{}\"{other}", key.value);
+                let help = "add this value to the sweep, or correct the row";
+                Err(self.refuse_row(key, message, help))
+            }
+            several => Err(self.refuse_row(
+                key,
+                self.describe_several(key, several),
+                "state one value of the sweep in the row",
+            )),
+        }
+    }
+
+    /// States which values of the sweep a row may describe.
+    fn describe_several(&self, key: &Text, members: &[usize]) -> String {
+        let values = members.iter().filter_map(|i| self.values.get(*i));
+        let list: Vec<String> = values.take(MOST_LISTED).map(|x| significant(*x)).collect();
+        let more = if members.len() > list.len() { ", …" } else { "" };
+        format!("the row \"{}\" describes several runs: {}{more}", key.value, list.join(", "))
+    }
+
+    /// The finding about a row that does not describe one run.
+    fn refuse_row(&self, key: &Text, message: String, help: &str) -> Box<Finding> {
+        let finding = Finding::new(rules::QUOTE_UNCLEAR, key.span(), message)
+            .why("the number in this row was compared with nothing")
+            .help(help)
+            .related(self.list.span(), "the values of the sweep");
+        Box::new(finding)
     }
 }
 

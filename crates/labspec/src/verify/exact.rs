@@ -386,7 +386,8 @@ impl ClosedFormRuns<'_> {
         *session.world.model.edit().opt.timestep = h / parts as f64;
         let mut found = Differences { times: Vec::new(), values: Vec::new() };
         let mut gap = None;
-        let played = Play { steps: count * parts, every: every * parts, presses: &[], watched: true };
+        let played =
+            Play { steps: count * parts, stop: None, every: every * parts, presses: &[], watched: true };
         run::play(&mut session, &played, |session, _| {
             let mut value =
                 |b: &Bound| session.evaluate(&b.program, &b.text).map_or(f64::NAN, |v| v.to_number());

@@ -26,6 +26,7 @@ mod answer;
 mod anything;
 mod bound;
 mod bound_run;
+mod bracket;
 mod check_verify;
 mod claim;
 mod claim_names;

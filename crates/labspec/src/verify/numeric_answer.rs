@@ -2,6 +2,7 @@
 //! in its unit.
 
 use super::bound::BoundVerify;
+use super::bracket::{BracketClaim, numbers_agree, report_undecided_bracket};
 use super::format::significant;
 use super::found::MeasuredValue;
 use super::grounded::{decided_value, report_constant_claim, report_undecided};
@@ -55,6 +56,9 @@ pub(super) fn check_number(
     if !computed.is_finite() {
         findings.push(no_value(text, computed));
         return Answer::failed("the simulation gives no number");
+    }
+    if let Some(reason) = key.report_undecided_bracket(bound, &outcomes.nominal, findings) {
+        return Answer::failed(reason);
     }
     let margin = Some(key.margin(computed));
     let mut weights = vec![Weight { option: None, holds: Some(key.accepts(computed)), margin, spread: None }];
@@ -132,6 +136,20 @@ impl NumericKey<'_> {
 
     fn accepts(&self, x: f64) -> bool {
         self.margin(x) >= 0.0
+    }
+
+    /// Reports an answer that the bracket of a search does not decide, and returns the reason.
+    fn report_undecided_bracket(
+        &self,
+        bound: &BoundVerify<'_>,
+        nominal: &MeasuredRuns,
+        findings: &mut Vec<Finding>,
+    ) -> Option<String> {
+        let accepts = |x: f64| self.accepts(self.factor * x);
+        let agrees = |values: &[Value]| numbers_agree(values, self.answer / self.factor, &accepts);
+        let (place, rule) = (self.span.clone(), rules::CLAIM_WITHOUT_NUMBER);
+        let claim = BracketClaim { text: self.text, place, rule, agrees: &agrees };
+        report_undecided_bracket(bound, nominal, &claim, findings)
     }
 
     /// The answer if the unit of the question is unknown or is not that of the expression.

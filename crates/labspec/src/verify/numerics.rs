@@ -22,15 +22,44 @@ pub const PERTURBED_START: StepVariant = StepVariant { perturbation: PERTURBATIO
 /// The initial state perturbed by `-PERTURBATION`.
 pub const PERTURBED_BACK: StepVariant = StepVariant { perturbation: -PERTURBATION, ..StepVariant::NOMINAL };
 
-/// Number of perturbed numerics under which every answer is checked.
-pub(super) const CHANGES: usize = 4;
+/// Perturbed numerics under which claims are checked.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Perturbation {
+    pub(super) numerics: StepVariant,
+    /// Their name, as in "it does not hold at half the timestep".
+    pub(super) how: &'static str,
+    /// What a change of a quoted value under them means; `None` if quotes are not checked under them.
+    pub(super) quoted: Option<QuotedChange>,
+}
 
-/// The perturbed numerics under which an answer must hold, and their names. Quotes use the first and the third.
-pub(super) const PERTURBED: [(StepVariant, &str); CHANGES] = [
-    (HALVED, "at half the timestep"),
-    (TIGHT_SOLVER, "with the solver run to convergence"),
-    (PERTURBED_START, "with a start moved by 1e-14"),
-    (FAST, "with the integrator implicitfast"),
+/// What a change of a quoted value means.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum QuotedChange {
+    /// The value depends on the timestep.
+    Timestep,
+    /// The value depends on a start that nobody can reproduce.
+    Start,
+}
+
+/// Number of perturbed numerics under which every answer is checked.
+pub(super) const CHANGES: usize = 5;
+
+/// The perturbed numerics under which answers must hold; quotes are checked under some of them. A start is perturbed in
+/// both directions, because a motion from an unstable equilibrium depends on the direction.
+pub(super) const PERTURBED: [Perturbation; CHANGES] = [
+    Perturbation { numerics: HALVED, how: "at half the timestep", quoted: Some(QuotedChange::Timestep) },
+    Perturbation { numerics: TIGHT_SOLVER, how: "with the solver run to convergence", quoted: None },
+    Perturbation {
+        numerics: PERTURBED_START,
+        how: "with a start moved by 1e-14",
+        quoted: Some(QuotedChange::Start),
+    },
+    Perturbation {
+        numerics: PERTURBED_BACK,
+        how: "with a start moved by -1e-14",
+        quoted: Some(QuotedChange::Start),
+    },
+    Perturbation { numerics: FAST, how: "with the integrator implicitfast", quoted: None },
 ];
 
 /// Additional numerics for an answer, where the changes under the others come close to the margin of a condition.

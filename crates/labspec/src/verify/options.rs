@@ -1,6 +1,7 @@
 //! The answer of a question with options: one condition per option, and whether only the keyed option holds.
 
 use super::bound::BoundVerify;
+use super::bracket::{BracketClaim, conditions_agree, report_undecided_bracket};
 use super::condition::ConditionMargin;
 use super::format::shorten;
 use super::found::MeasuredValue;
@@ -302,6 +303,14 @@ fn evaluate_conditions(
                 reason = reason.or_else(|| Some("an option has no condition".to_string()));
             }
             Ok(found) => {
+                let claim = BracketClaim {
+                    text,
+                    place: text.span(),
+                    rule: rules::CLAIM_WITHOUT_NUMBER,
+                    agrees: &conditions_agree,
+                };
+                let undecided = tried.then(|| report_undecided_bracket(bound, outcome, &claim, findings));
+                reason = reason.or(undecided.flatten());
                 let condition = bound.evaluate_margin(&found);
                 all.push(Some((found, condition)));
             }

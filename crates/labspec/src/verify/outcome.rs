@@ -46,6 +46,8 @@ pub(super) struct MeasuredRuns {
     pub(super) runs: Vec<MeasuredRun>,
     /// Results of searches.
     pub(super) found: Vec<(String, f64)>,
+    /// The other end of the bracket of each search: its true limit is anywhere between the result and this end.
+    pub(super) other_ends: Vec<f64>,
     /// The searched range of each, in words.
     pub(super) looked: Vec<String>,
     pub(super) numerics: StepVariant,
@@ -57,6 +59,13 @@ impl MeasuredRuns {
     /// The value that a reference engine recorded for this expression.
     pub(super) fn measured_elsewhere(&self, text: &str) -> Option<f64> {
         self.elsewhere.iter().find(|(text_of_run, _)| text_of_run == text).map(|(_, x)| *x)
+    }
+
+    /// The ends of the bracket of a search, its result first; `None` if it has no result.
+    pub(super) fn bracket(&self, search: usize) -> Option<[f64; 2]> {
+        let (_, value) = self.found.get(search)?;
+        let ends = [*value, *self.other_ends.get(search)?];
+        (ends.iter().all(|x| x.is_finite()) && ends[0] != ends[1]).then_some(ends)
     }
 
     /// All measures, with their names in conditions.

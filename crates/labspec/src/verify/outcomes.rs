@@ -2,7 +2,7 @@
 
 use super::bound::BoundVerify;
 use super::bound_run::BoundRun;
-use super::numerics::{CHANGES, PERTURBED, PERTURBED_BACK};
+use super::numerics::{CHANGES, PERTURBED, Perturbation, QuotedChange};
 use super::outcome::MeasuredRuns;
 use super::search::{self, SearchCase};
 use crate::finding::Finding;
@@ -17,6 +17,7 @@ impl BoundVerify<'_> {
         for find in &self.verify.find {
             let limit = self.search(find, numerics, findings)?;
             outcome.found.push((find.name.value.clone(), limit.value));
+            outcome.other_ends.push(limit.other_end);
             outcome.looked.push(limit.looked);
         }
         Some(outcome)
@@ -69,8 +70,20 @@ pub(super) struct Outcomes {
     pub(super) nominal: MeasuredRuns,
     /// In the order of [`PERTURBED`](super::numerics::PERTURBED); `None` where no claim needs them.
     pub(super) perturbed: [Option<MeasuredRuns>; CHANGES],
-    /// The start perturbed in the other direction, if the first perturbation changed a value.
-    pub(super) perturbed_back: Option<MeasuredRuns>,
+}
+
+impl Outcomes {
+    /// Every outcome under perturbed numerics, with these numerics.
+    pub(super) fn under_perturbations(&self) -> impl Iterator<Item = (&MeasuredRuns, Perturbation)> {
+        let pairs = self.perturbed.iter().zip(PERTURBED);
+        pairs.filter_map(|(outcome, perturbation)| Some((outcome.as_ref()?, perturbation)))
+    }
+
+    /// The outcomes in which a change of a quoted value has this meaning, with the names of the numerics.
+    pub(super) fn quoted(&self, change: QuotedChange) -> impl Iterator<Item = (&MeasuredRuns, &'static str)> {
+        let quoted = self.under_perturbations().filter(move |(_, p)| p.quoted == Some(change));
+        quoted.map(|(outcome, perturbation)| (outcome, perturbation.how))
+    }
 }
 
 /// Executes every run under all numerics that are needed.
@@ -82,14 +95,15 @@ pub(super) fn run_all_numerics(
     let nominal = bound.outcome(StepVariant::NOMINAL, findings)?;
     let answers = verify.claims_answer();
     let quotes = !verify.says.is_empty() || !verify.table.is_empty();
-    let needed = |i: usize| answers || quotes && (i == 0 || i == 2);
-    let mut perturbed = [None, None, None, None];
+    let needed = |perturbation: &Perturbation| answers || quotes && perturbation.quoted.is_some();
+    let mut perturbed = [const { None }; CHANGES];
     let about_numerics = bound.states_every_timestep();
-    for (i, (numerics, how)) in PERTURBED.into_iter().enumerate().filter(|(i, _)| needed(*i)) {
+    for (outcome, perturbation) in perturbed.iter_mut().zip(PERTURBED).filter(|(_, p)| needed(p)) {
+        let Perturbation { numerics, how, .. } = perturbation;
         let same = about_numerics && (numerics.timestep != 1.0 || numerics.integrator.is_some());
         let mut refused = Vec::new();
-        perturbed[i] = if same { Some(nominal.clone()) } else { bound.outcome(numerics, &mut refused) };
-        if perturbed[i].is_none() {
+        *outcome = if same { Some(nominal.clone()) } else { bound.outcome(numerics, &mut refused) };
+        if outcome.is_none() {
             // A failure here that the nominal run does not have: the run takes too long.
             findings.extend(refused.into_iter().take(1).map(|f| {
                 let message = format!("{how}: {}", f.message);
@@ -98,7 +112,5 @@ pub(super) fn run_all_numerics(
             return None;
         }
     }
-    let moved = perturbed[2].as_ref().is_some_and(|o| o.list() != nominal.list());
-    let perturbed_back = moved.then(|| bound.outcome(PERTURBED_BACK, &mut Vec::new())).flatten();
-    Some(Outcomes { nominal, perturbed, perturbed_back })
+    Some(Outcomes { nominal, perturbed })
 }

@@ -1,8 +1,10 @@
 //! Checks one quote: compares a number or words with the value of its expression, in the nominal and in perturbed runs.
 
 use super::bound::BoundVerify;
+use super::bracket::{BracketClaim, conditions_agree, numbers_agree, report_undecided_bracket};
 use super::found::MeasuredValue;
 use super::grounded::grounded_value;
+use super::numerics::QuotedChange;
 use super::outcome::MeasuredRuns;
 use super::outcomes::Outcomes;
 use super::quote::RenderedText;
@@ -10,6 +12,7 @@ use super::quote::{self, OtherValue, QuoteState};
 use super::units;
 use crate::finding::Finding;
 use crate::ledger::Evidence;
+use crate::rules;
 use crate::source::Text;
 use labspec_expr::Value;
 use serde::{Deserialize, Serialize};
@@ -69,6 +72,20 @@ pub(super) struct QuoteChecker<'c, 'b> {
     pub(super) rendered: &'c RenderedText,
 }
 
+impl QuoteChecker<'_, '_> {
+    /// Reports a quote that the bracket of a search does not decide, and returns the reason.
+    fn report_undecided_bracket(
+        self,
+        claim: &quote::QuoteClaim<'_>,
+        agrees: &dyn Fn(&[Value]) -> bool,
+        findings: &mut Vec<Finding>,
+    ) -> Option<String> {
+        let (place, rule) = (claim.quote.span(), rules::QUOTE_UNCLEAR);
+        let claim = BracketClaim { text: claim.expr, place, rule, agrees };
+        report_undecided_bracket(self.bound, &self.outcomes.nominal, &claim, findings)
+    }
+}
+
 /// The value of an expression in the nominal runs and in perturbed runs.
 pub(super) struct QuotedValue {
     found: MeasuredValue,
@@ -84,11 +101,11 @@ impl QuotedValue {
     ) -> Result<QuotedValue, String> {
         let QuoteChecker { bound, outcomes, .. } = checker;
         let found = grounded_value(bound, &outcomes.nominal, expr, findings)?;
-        let other = |n: usize, how| value_of(bound, outcomes.perturbed.get(n)?.as_ref()?, expr, how);
-        let back = "with a start moved by -1e-14";
-        let mut start: Vec<OtherValue> = other(2, "with a start moved by 1e-14").into_iter().collect();
-        start.extend(outcomes.perturbed_back.as_ref().and_then(|o| value_of(bound, o, expr, back)));
-        Ok(QuotedValue { found, timestep: other(0, "at half the timestep").into_iter().collect(), start })
+        let others = |change: QuotedChange| -> Vec<OtherValue> {
+            outcomes.quoted(change).filter_map(|(o, how)| value_of(bound, o, expr, how)).collect()
+        };
+        let (timestep, start) = (others(QuotedChange::Timestep), others(QuotedChange::Start));
+        Ok(QuotedValue { found, timestep, start })
     }
 
     pub(super) fn is_condition(&self) -> bool {
@@ -133,7 +150,18 @@ pub(super) fn check_number(
     let unit = &|| units::of_claim(checker.bound, &checker.outcomes.nominal, claim.expr);
     let computed = given.found.value.to_number();
     let value = quote::QuoteValue { computed, timestep: &given.timestep, start: &given.start, unit };
-    let o = quote::check_quote(claim, &part.reading, places, &value, checker.rendered, findings);
+    let mut found = Vec::new();
+    let mut o = quote::check_quote(claim, &part.reading, places, &value, checker.rendered, &mut found);
+    if let Some(read) = o.read.filter(|_| o.state != QuoteState::Unclear) {
+        // The number is compared in the unit of the quote.
+        let factor = if computed == 0.0 { 1.0 } else { o.computed / computed };
+        let agrees = |values: &[Value]| numbers_agree(values, read.value / factor, &|x| read.is(factor * x));
+        if let Some(reason) = checker.report_undecided_bracket(claim, &agrees, findings) {
+            found.clear();
+            (o.state, o.reason) = (QuoteState::Unclear, reason);
+        }
+    }
+    findings.extend(found);
     let text = claim.part.trim().to_string();
     let (state, evidence, reason) = (o.state, given.found.evidence, o.reason);
     Quote { text, span: claim.quote.span(), state, evidence, reason, computed }
@@ -155,7 +183,15 @@ pub(super) fn check_words(
         timestep: moved(&given.timestep),
         start: moved(&given.start),
     };
-    let (state, reason) = quote::check_words(claim, places, &condition, checker.rendered, findings);
+    let mut found = Vec::new();
+    let (mut state, mut reason) = quote::check_words(claim, places, &condition, checker.rendered, &mut found);
+    if state != QuoteState::Unclear
+        && let Some(undecided) = checker.report_undecided_bracket(claim, &conditions_agree, findings)
+    {
+        found.clear();
+        (state, reason) = (QuoteState::Unclear, undecided);
+    }
+    findings.extend(found);
     let computed = f64::from(u8::from(given.holds()));
     let (text, evidence) = (claim.quote.value.clone(), given.found.evidence);
     Quote { text, span: claim.quote.span(), state, evidence, reason, computed }

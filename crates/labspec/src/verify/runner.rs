@@ -11,7 +11,7 @@ use crate::bind::{include, scalar};
 use crate::finding::Finding;
 use crate::json::read::named;
 use crate::rules;
-use crate::run::{self, Budget, End, Play, RunError, Session, Start, StepVariant};
+use crate::run::{self, Budget, End, Play, RunError, Session, Start, StepVariant, StopTime};
 use labspec_core::reflect::{FieldId, option};
 use labspec_core::{AccessSet, Model, Plan, integrator};
 use labspec_expr::{Effects, Program, Value, Watch};
@@ -75,12 +75,13 @@ fn key(request: &RunRequest<'_, '_>) -> String {
         let set: Vec<_> = spec.set.iter().map(|(label, v)| (label.as_str(), scalar(v))).collect();
         let press: Vec<_> = spec.press.iter().map(|(label, t)| (label.as_str(), t.value)).collect();
         let length = [&spec.until, &spec.steps].map(|n| n.as_ref().map(|n| n.value));
-        let controls: Vec<_> = run.controls.iter().map(|(label, x)| (label.as_str(), x)).collect();
         let code = [&spec.setup, &spec.stop].map(|t| t.as_ref().map(|t| t.as_str()));
-        format!("{set:?} {controls:?} {press:?} {length:?} {code:?}")
+        format!("{set:?} {press:?} {length:?} {code:?}")
     });
+    // A search sets controls of the only run of an object without `runs`, too.
+    let controls: Vec<_> = run.controls.iter().map(|(label, x)| (label.as_str(), x)).collect();
     let labs = format!("{:?} {} {:?} {:?}", lab.span, scene.scene.model.identity(), lab.key, lab.controller);
-    format!("{labs} {of_run:?} {numerics:?} {texts:?}")
+    format!("{labs} {of_run:?} {controls:?} {numerics:?} {texts:?}")
 }
 
 /// A run after its setup, and the data for playing it.
@@ -90,8 +91,10 @@ pub(super) struct PreparedRun<'r> {
     pub(super) press: Vec<(usize, f64)>,
     /// Number of steps.
     pub(super) count: usize,
-    /// The time (s) at which `stop` was decided by a NaN. The run ends there, because its end is undecided.
-    pub(super) open: Option<f64>,
+    /// The `stopAt` of the lab, if the run does not have a length of its own.
+    stop: Option<StopTime>,
+    /// Why the end of the run is undecided, if it is: `stop` was decided by a NaN, or the run never reaches its `stopAt`.
+    pub(super) open: Option<String>,
 }
 
 /// Sets up a run: its controls, its setup, its length. Errors are added to `findings`.
@@ -138,7 +141,9 @@ pub(super) fn prepare_run<'r>(
         )));
         return None;
     }
-    Some(PreparedRun { session, press, count, open: None })
+    let stop = run::stop_time(lab, until, steps, count)
+        .map(|stop| StopTime { most: stop.most.min(MAX_VERIFY_STEPS).max(count), ..stop });
+    Some(PreparedRun { session, press, count, stop, open: None })
 }
 
 /// Plays a run to its end. `sample` is called at the start and after every step, with the number of steps made.
@@ -150,10 +155,11 @@ pub(super) fn play<'r>(
     let RunRequest { scene: bound, run, .. } = request;
     let (lab, programs, displayed) =
         (&*bound.scene.lab, &*bound.scene.programs, bound.displayed.used_labels());
-    let played = Play { steps: ready.count, every: 1, presses: &ready.press, watched: true };
+    let played =
+        Play { steps: ready.count, stop: ready.stop, every: 1, presses: &ready.press, watched: true };
     let mut watch = Some(Box::new(Watch::losses()));
     let mut open = None;
-    run::play(&mut ready.session, &played, |session, made| {
+    let made = run::play(&mut ready.session, &played, |session, made| {
         reads::show(&displayed, lab, programs, session);
         sample(session, made);
         let Some(stop) = run.stop.as_ref() else { return ControlFlow::Continue(()) };
@@ -163,7 +169,7 @@ pub(super) fn play<'r>(
         let nan =
             matches!(holds, Some(Value::Undefined)) || matches!(holds, Some(Value::Number(x)) if x.is_nan());
         if nan || watch.as_ref().is_some_and(|watch| watch.lost.is_some()) {
-            open = Some(session.world.data.time());
+            open = Some(undecided_stop(session.world.data.time()));
             return ControlFlow::Break(());
         }
         if holds.is_some_and(|holds| holds.truthy()) {
@@ -172,7 +178,7 @@ pub(super) fn play<'r>(
             ControlFlow::Continue(())
         }
     });
-    ready.open = open;
+    ready.open = open.or_else(|| run::describe_unreached(&played, &ready.session, made));
 }
 
 fn make(
@@ -203,7 +209,7 @@ fn make(
         end: session.world.data.time(),
         warnings: session.warnings.iter().map(|w| w.number).sum(),
         solved,
-        broke: describe_breakdown(&session).or_else(|| open.map(undecided_stop)),
+        broke: describe_breakdown(&session).or(open),
         has_uncoupled_change: session.has_uncoupled_change() || request.scene.scene.has_uncoupled_change,
     })
 }

@@ -44,6 +44,8 @@ struct TriedValue {
 pub(super) struct SearchLimit {
     /// NaN when there is no single limit.
     pub(super) value: f64,
+    /// The other end of the interval in which the condition changes; NaN when there is no single limit.
+    pub(super) other_end: f64,
     /// The searched range, in words.
     pub(super) looked: String,
 }
@@ -92,16 +94,16 @@ pub(super) fn search(
         );
     };
     match (found, open) {
-        (Some(Ok(value)), _) => Some(SearchLimit { value, looked }),
+        (Some(Ok([value, other_end])), _) => Some(SearchLimit { value, other_end, looked }),
         (Some(Err((message, help))), _) => {
             none(message, help);
-            Some(SearchLimit { value: f64::NAN, looked })
+            Some(SearchLimit { value: f64::NAN, other_end: f64::NAN, looked })
         }
         (None, Some((x, part))) => {
             let message =
                 format!("with {} the condition is undecided: `{part}` compares NaN", significant(x));
             none(message, "search where the measure has a value, or test for it with `isNaN(x)`");
-            Some(SearchLimit { value: f64::NAN, looked })
+            Some(SearchLimit { value: f64::NAN, other_end: f64::NAN, looked })
         }
         (None, None) => {
             findings.extend(refused.into_iter().take(1));
@@ -124,8 +126,11 @@ pub(super) fn lint_condition(case: &SearchCase<'_>, stage: &RunCache<'_>, findin
 /// Why a search has no value, and the help.
 type NoLimit = (String, &'static str);
 
-/// The limit, or why there is none; `None` when a run cannot be executed.
-fn halve(find: &Find, try_at: &mut dyn FnMut(f64) -> Option<TriedValue>) -> Option<Result<f64, NoLimit>> {
+/// The limit and the other end of its bracket, or why there is none; `None` when a run cannot be executed.
+fn halve(
+    find: &Find,
+    try_at: &mut dyn FnMut(f64) -> Option<TriedValue>,
+) -> Option<Result<[f64; 2], NoLimit>> {
     let [from, to] = find.range;
     let part = |i: usize| from + (to - from) * i as f64 / (PROBES + 1) as f64;
     // The ends first: if the condition is the same at both, nothing else is run.
@@ -166,8 +171,8 @@ fn halve(find: &Find, try_at: &mut dyn FnMut(f64) -> Option<TriedValue>) -> Opti
     if found.len() != 1 {
         return Some(Err(several(&found)));
     }
-    // The end of the interval at which the condition holds.
-    Some(Ok(if find.largest { low } else { high }))
+    // The end of the interval at which the condition holds comes first.
+    Some(Ok(if find.largest { [low, high] } else { [high, low] }))
 }
 
 /// The intervals in which the condition changes.

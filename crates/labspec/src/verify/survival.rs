@@ -1,7 +1,7 @@
 //! Checks an answer under perturbed numerics that the question does not mention: it must hold under all of them.
 
 use super::bound::BoundVerify;
-use super::numerics::{CLOSE_VARIANTS, PERTURBED};
+use super::numerics::CLOSE_VARIANTS;
 use super::outcome::MeasuredRuns;
 use super::outcomes::Outcomes;
 use super::verdict::{Verdict, Weight};
@@ -9,11 +9,6 @@ use crate::finding::Finding;
 use crate::ledger::Evidence;
 use crate::rules;
 use std::ops::Range;
-
-/// The outcomes under perturbed numerics, with their names.
-fn perturbed_outcomes(outcomes: &Outcomes) -> impl Iterator<Item = (&MeasuredRuns, &'static str)> {
-    outcomes.perturbed.iter().zip(PERTURBED).filter_map(|(o, (_, how))| Some((o.as_ref()?, how)))
-}
 
 /// A finding if the answer changes in an outcome under perturbed numerics with the given name. The spread of the weights is
 /// widened by the margins.
@@ -47,8 +42,8 @@ pub(super) fn withstand_numerics(
             }
         }
     };
-    for (outcome, how) in perturbed_outcomes(outcomes) {
-        withstand(Some(outcome), how, weights)?;
+    for (outcome, perturbation) in outcomes.under_perturbations() {
+        withstand(Some(outcome), perturbation.how, weights)?;
     }
     for (numerics, how) in CLOSE_VARIANTS {
         if weights.iter().any(Weight::is_close) {

@@ -269,7 +269,7 @@ impl<'a> PrecisionCase<'a> {
                 false => ControlFlow::Continue(()),
             }
         };
-        let played = Play { steps, every: 1, presses: &self.presses, watched: !request.fresh };
+        let played = Play { steps, stop: None, every: 1, presses: &self.presses, watched: !request.fresh };
         let made = match request.cut {
             true => jumps::play(&mut session, &played, setting.timestep, sample),
             false => run::play(&mut session, &played, sample),

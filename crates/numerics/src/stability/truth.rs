@@ -123,7 +123,7 @@ fn rows(
         .map(|a| (a.control, a.time))
         .collect();
     let mut list: SampledRows = Vec::new();
-    let played = Play { steps, every, presses: &presses, watched: false };
+    let played = Play { steps, stop: None, every, presses: &presses, watched: false };
     run::play(&mut session, &played, |session, made| {
         let late = (session.world.data.time() - made as f64 * timestep).abs() > 0.5 * timestep;
         if late || session.warnings.iter().any(|w| w.number > 0) {

@@ -71,11 +71,13 @@ pub(super) fn make(
 
     let mut watcher = case.watcher(&trial.interaction, &session);
     let every = (steps / SAMPLES).max(1);
-    let played = Play { steps, every: 1, presses: &[], watched: true };
+    let stop = run::stop_time(lab, until, None, steps);
+    let played = Play { stop, watched: true, ..Play::steps(steps) };
     let (mut rows, mut hash, mut beyond) =
         (Vec::new(), ObservationHash::default(), InputsOutOfRange::default());
     let made = run::play(&mut session, &played, |session, step| {
-        if step % every == 0 || step == steps {
+        let is_over = played.is_over(session, step);
+        if step % every == 0 || is_over {
             let row = seen.observe(session, &trial.done);
             hash.observe(&row, session);
             if step > 0 {
@@ -83,7 +85,7 @@ pub(super) fn make(
             }
             rows.push(row);
         }
-        watcher.observe(session, step, step == steps);
+        watcher.observe(session, step, is_over);
         ControlFlow::Continue(())
     });
     let ended = match session.ended() {
@@ -91,7 +93,7 @@ pub(super) fn make(
         Some(End::Threw | End::Foreign) => Some(EndedRun::Threw),
         Some(End::Budget { .. } | End::Interrupted) => Some(EndedRun::Spent),
     };
-    let covered = if made == steps { requested } else { made as f64 * timestep };
+    let covered = if made == steps || ended.is_none() { requested } else { made as f64 * timestep };
     let (broke, tried_work) = report_breaks(lab, case, trial, &session, seen, findings);
     findings.extend(seen.take());
     let (spent, faults) = (session.spent() + tried_work, watcher.faults(&session));

@@ -121,7 +121,7 @@ pub(super) fn play(
     looks.dedup();
 
     let mut samples: Vec<Vec<Cell>> = Vec::new();
-    let played = Play { steps: count * finer, every: finer, presses: &presses, watched: false };
+    let played = Play { steps: count * finer, stop: None, every: finer, presses: &presses, watched: false };
     run::play(&mut session, &played, |session, step| {
         if looks.binary_search(&(step / finer)).is_ok() {
             samples.push(session.sample());

@@ -175,8 +175,7 @@ fn verdicts(
     rendered: &RenderedText,
     outcome: &MeasuredRuns,
 ) -> (Option<Answer>, Vec<Quote>) {
-    let outcomes =
-        Outcomes { nominal: outcome.clone(), perturbed: [const { None }; CHANGES], perturbed_back: None };
+    let outcomes = Outcomes { nominal: outcome.clone(), perturbed: [const { None }; CHANGES] };
     let ignored = &mut Vec::new();
     let answer = question.and_then(|q| answer::check_answer(bound, &outcomes, verify, q, ignored));
     let checker = QuoteChecker { bound, outcomes: &outcomes, rendered };

@@ -50,6 +50,12 @@ pub(super) fn modified(q: &Quoted, before: &str, languages: Languages) -> Option
     }
 }
 
+/// Whether the words before a number state that it is approximate.
+pub(super) fn is_approximate(before: &str, languages: Languages) -> bool {
+    let line = before.rsplit('\n').next().unwrap_or("").to_lowercase();
+    last_word(line.trim_end(), WordList::Approximate, languages).is_some()
+}
+
 /// A list of words of a language.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum WordList {

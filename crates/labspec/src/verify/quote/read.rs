@@ -1,7 +1,7 @@
 //! Reads the number that a quote states. A form that is not understood is an error that names it; nothing is guessed.
 
 use super::context::{BOUND, PLUS_MINUS};
-use super::modifier::modified;
+use super::modifier::{is_approximate, modified};
 use super::number::{NumberForm, Quoted, Style};
 use super::numeral::Chars;
 use super::quantity::{Quantity, as_share, quantities, singles};
@@ -18,6 +18,8 @@ pub(in crate::verify) struct QuoteReading {
     pub(super) share: Option<Quoted>,
     /// Other numbers that it may state, each with a reason.
     pub(super) ambiguities: Vec<(Quoted, &'static str)>,
+    /// Whether the words before it state that it is approximate.
+    pub(super) is_approximate: bool,
     /// Why it must not be reported as wrong when it differs.
     pub(super) is_ambiguous: Option<&'static str>,
     /// Its unit, if it has one.
@@ -124,6 +126,7 @@ fn of_quantity(chars: Chars<'_>, q: &Quantity, languages: Languages) -> Result<Q
         read: quoted,
         share: q.unit.as_ref().and_then(|unit| as_share(&quoted, unit)),
         ambiguities: q.ambiguities.iter().map(|&value| (Quoted { value, ..q.quoted }, why)).collect(),
+        is_approximate: is_approximate(&chars.text(0, q.whole.start), languages),
         is_ambiguous: q.is_ambiguous,
         unit: q.unit.clone(),
         last: false,
