@@ -42,6 +42,7 @@ mod format;
 mod found;
 mod grounded;
 mod imagined;
+mod interpolated;
 pub mod judge;
 mod judgement;
 mod layout;
