@@ -6,6 +6,7 @@ mod context;
 mod context_after;
 mod denial;
 mod fold;
+mod heading;
 mod hidden;
 mod html;
 mod markdown_cell;
@@ -33,6 +34,7 @@ mod unit_text;
 mod words;
 
 pub(super) use check_quote::{check_quote, places_of_quote};
+pub(super) use heading::operation_in_heading;
 pub(super) use markdown_cell::unit_of_head;
 pub use number::{NumberForm, Quoted, Style};
 pub(super) use option_ratio::option_ratio;
