@@ -1,5 +1,6 @@
 //! Quoted numbers: they are found in the rendered text, read, and compared with the simulation at the printed precision.
 
+mod arithmetic;
 mod check_quote;
 mod clause_unit;
 mod context;
