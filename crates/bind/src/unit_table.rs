@@ -39,7 +39,7 @@ const POWER: &[(usize, i32)] = &[(KG, 1), (M, 2), (S, -3)];
 const PRESSURE: &[(usize, i32)] = &[(KG, 1), (M, -1), (S, -2)];
 
 /// The symbols of units, case-sensitive, and names in scripts without capital letters.
-const UNITS: [UnitRow; 49] = [
+const UNITS: [UnitRow; 50] = [
     UnitRow("rad", 1.0, ANGLES, true),
     UnitRow("deg", PI / 180.0, ANGLES, false),
     UnitRow("°", PI / 180.0, ANGLES, false),
@@ -49,6 +49,7 @@ const UNITS: [UnitRow; 49] = [
     UnitRow("s", 1.0, TIME, true),
     UnitRow("min", 60.0, TIME, false),
     UnitRow("h", 3600.0, TIME, false),
+    UnitRow("Std", 3600.0, TIME, false),
     UnitRow("g", 1e-3, MASS, true),
     UnitRow("lb", 0.453_592_37, MASS, false),
     UnitRow("lbs", 0.453_592_37, MASS, false),
@@ -104,7 +105,7 @@ const NAMED: [UnitRow; 8] = [
 ];
 
 /// Names of units in lower case without a plural `s`: their size in the unit of a symbol, and that symbol.
-const WORDS: [(&str, f64, &str); 73] = [
+const WORDS: [(&str, f64, &str); 107] = [
     ("radian", 1.0, "rad"),
     ("degree", 1.0, "°"),
     ("grad", 1.0, "°"),
@@ -178,6 +179,40 @@ const WORDS: [(&str, f64, &str); 73] = [
     ("pascal", 1.0, "Pa"),
     ("hertz", 1.0, "Hz"),
     ("litre", 1.0, "L"),
+    ("zoll", 0.0254, "m"),
+    ("fuß", 0.3048, "m"),
+    ("pouce", 0.0254, "m"),
+    ("pollici", 0.0254, "m"),
+    ("piedi", 0.3048, "m"),
+    ("metri", 1.0, "m"),
+    ("secondi", 1.0, "s"),
+    ("minuti", 60.0, "s"),
+    ("ore", 3600.0, "s"),
+    ("tag", 86400.0, "s"),
+    ("tage", 86400.0, "s"),
+    ("tagen", 86400.0, "s"),
+    ("jour", 86400.0, "s"),
+    ("día", 86400.0, "s"),
+    ("giorno", 86400.0, "s"),
+    ("giorni", 86400.0, "s"),
+    ("woche", 604_800.0, "s"),
+    ("wochen", 604_800.0, "s"),
+    ("semaine", 604_800.0, "s"),
+    ("semana", 604_800.0, "s"),
+    ("settimane", 604_800.0, "s"),
+    ("monat", 2_629_800.0, "s"),
+    ("monate", 2_629_800.0, "s"),
+    ("monaten", 2_629_800.0, "s"),
+    ("mois", 2_629_800.0, "s"),
+    ("meses", 2_629_800.0, "s"),
+    ("mesi", 2_629_800.0, "s"),
+    ("jahr", 31_557_600.0, "s"),
+    ("jahre", 31_557_600.0, "s"),
+    ("jahren", 31_557_600.0, "s"),
+    ("année", 31_557_600.0, "s"),
+    ("año", 31_557_600.0, "s"),
+    ("anni", 31_557_600.0, "s"),
+    ("tonnen", 1e6, "g"),
 ];
 
 /// The prefixes of unit names.

@@ -88,9 +88,9 @@ pub(crate) fn contradicts(found: &Dimension, unit: &Dimension) -> bool {
         return false;
     }
     if !found.agrees(unit) {
-        // The factor 1000 for millimetres is a conversion, not a quantity.
+        // The factor 1000 for millimetres, or that of degrees, is a conversion, not a quantity.
         let converts = unit.factor != 1.0
-            && is_power_of_ten(unit.factor)
+            && (is_power_of_ten(unit.factor) || unit.has_angle() && is_degrees(unit.factor))
             && (factor / unit.factor.abs() - 1.0).abs() < 1e-9;
         return found.is_exact() || converts;
     }

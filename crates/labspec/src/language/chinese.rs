@@ -11,4 +11,10 @@ pub(super) static CHINESE: Language = Language {
     largest: &[],
     lower_bounds: &[],
     upper_bounds: &[],
+    numerals: &[],
+    factor_suffixes: &[],
+    multiples: &[],
+    parts: &[],
+    of: &[],
+    operators: &[],
 };

@@ -1,7 +1,6 @@
-//! The languages of lessons: the words before a number that state an interval, and the decimal separator.
+//! The languages of lessons: the words before a number that state an interval or compute with it, and the decimal separator.
 //!
-//! One table for each language. Words that make a number unreadable are not among them: these are recognized in every text,
-//! whatever its language.
+//! One table for each language. Words that make a number unreadable are recognized in every text, whatever its language.
 
 mod chinese;
 mod english;
@@ -31,6 +30,18 @@ pub struct Language {
     pub lower_bounds: &'static [&'static str],
     /// Before an upper bound: `less than 1 mm`.
     pub upper_bounds: &'static [&'static str],
+    /// Numbers in words, except one: `three`.
+    pub numerals: &'static [&'static str],
+    /// After a numeral they make a factor of it: `tenfold`, `zehnmal`.
+    pub factor_suffixes: &'static [&'static str],
+    /// Before a number, they multiply it: `twice`.
+    pub multiples: &'static [&'static str],
+    /// Before a number and a word of `of`, they denote a part or a multiple: `half of`.
+    pub parts: &'static [&'static str],
+    /// Between a part and its whole.
+    pub of: &'static [&'static str],
+    /// Between two numbers, they compute with them: `times`.
+    pub operators: &'static [&'static str],
 }
 
 /// All languages.
@@ -123,6 +134,15 @@ mod tests {
             let count = all.len();
             all.dedup();
             assert_eq!(all.len(), count, "{}", language.name);
+            let computing = [
+                language.numerals,
+                language.factor_suffixes,
+                language.multiples,
+                language.parts,
+                language.of,
+                language.operators,
+            ];
+            assert!(computing.concat().iter().all(|word| *word == word.to_lowercase()), "{}", language.name);
         }
     }
 }

@@ -18,24 +18,23 @@ pub(super) enum DrawMode {
     ConstantPerRun,
 }
 
-/// An imagined simulation: every value that is read of the data is drawn at random.
-pub(super) struct Anything<'w> {
-    pub(super) world: &'w World,
+/// The source of the values of a sample.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct DrawSource {
     /// Seeds of the run and of the sample.
     pub(super) seeds: [u64; 2],
     pub(super) manner: DrawMode,
-    /// Time of the sample, s, for samples in sequence.
-    pub(super) time: Option<f64>,
 }
 
-impl<'w> Anything<'w> {
-    /// A single sample.
-    pub(super) fn sample_of(world: &'w World, seed: u64) -> Anything<'w> {
-        Anything { world, seeds: [seed; 2], manner: DrawMode::Any, time: None }
+impl DrawSource {
+    /// The source of one sample of a run.
+    pub(super) fn at_sample(self, sample: u64) -> DrawSource {
+        let [run, _] = self.seeds;
+        DrawSource { seeds: [run, run ^ (sample + 1) << 40], ..self }
     }
 
-    /// Draws the value with the key `what`.
-    fn draw(&self, what: u64) -> f64 {
+    /// The value with the key `what`.
+    fn draw(self, what: u64) -> f64 {
         let [run, sample] = self.seeds;
         let mut draws = Draws::new(what ^ if self.manner == DrawMode::ConstantPerRun { run } else { sample });
         draws.unit();
@@ -44,6 +43,35 @@ impl<'w> Anything<'w> {
             DrawMode::Near(x) => x * (4.0 * draws.unit() - 2.0),
             DrawMode::Zero => 0.0,
         }
+    }
+}
+
+/// The number between two others: `a` for the fraction 0, `b` for 1.
+pub(super) fn between(a: f64, b: f64, fraction: f64) -> f64 {
+    if fraction == 0.0 { a } else { (1.0 - fraction) * a + fraction * b }
+}
+
+/// An imagined simulation: every value that is read of the data is drawn at random.
+pub(super) struct Anything<'w> {
+    pub(super) world: &'w World,
+    pub(super) source: DrawSource,
+    /// Another source and a fraction: each value lies that far between the values of the two sources.
+    pub(super) toward: Option<(DrawSource, f64)>,
+    /// Time of the sample, s, for samples in sequence.
+    pub(super) time: Option<f64>,
+}
+
+impl<'w> Anything<'w> {
+    /// A single sample.
+    pub(super) fn sample_of(world: &'w World, seed: u64) -> Anything<'w> {
+        let source = DrawSource { seeds: [seed; 2], manner: DrawMode::Any };
+        Anything { world, source, toward: None, time: None }
+    }
+
+    /// Draws the value with the key `what`.
+    fn draw(&self, what: u64) -> f64 {
+        let x = self.source.draw(what);
+        self.toward.map_or(x, |(other, fraction)| between(x, other.draw(what), fraction))
     }
 }
 

@@ -47,6 +47,9 @@ pub(super) fn check_column(
             return vec![refused(&claim.column, finding, findings)];
         }
     };
+    if let Some(finding) = computing_heading(claim) {
+        return vec![refused(&claim.column, finding, findings)];
+    }
     let unit = quote::unit_of_head(claim.column.as_str());
     let key_head = claim.by.as_ref().and_then(|(head, _)| quote::unit_of_head(head.as_str()));
     let implied = claim.by.is_none().then(|| implied_values(checker, &claim.is)).flatten();
@@ -70,6 +73,33 @@ pub(super) fn check_column(
         });
     }
     all
+}
+
+/// The finding about a heading that computes with a measure, where the expression for its cells does not: the cells of
+/// `1000 t (s)` are not `t`.
+fn computing_heading(claim: &Column) -> Option<Finding> {
+    // For a cell that is given by its number, `column` is a text in its row.
+    let number = match &claim.is {
+        Stands::Number(expr) if claim.cell.is_none() => Some((&claim.column, expr)),
+        _ => None,
+    };
+    let key = claim.by.as_ref().map(|(heading, list)| (heading, list));
+    let mut columns = number.into_iter().chain(key);
+    columns.find_map(|(heading, expr)| {
+        let operation = quote::operation_in_heading(heading.as_str()).filter(|_| !computes(&expr.value))?;
+        let message = format!("the heading says \"{operation}\", but the expression is `{}`", expr.value.trim());
+        Some(
+            Finding::error(rules::QUOTE_UNCLEAR, heading.span(), message)
+                .why("the cells may be another quantity than the one that the expression gives")
+                .help("name the quantity alone in the heading, as in `time (s)`, or compute with it in the expression, too")
+                .related(expr.span(), "the expression for the cells"),
+        )
+    })
+}
+
+/// Whether an expression computes with what it reads.
+fn computes(expr: &str) -> bool {
+    expr.contains(['+', '-', '*', '/', '%']) || expr.contains("Math.") || expr.contains("lib.")
 }
 
 /// The values of the sweep whose list a cell states, where the claim names a row only: the row tells the member.
@@ -282,4 +312,37 @@ pub(super) fn part(list: &Text, behind: &str) -> Text {
         return list.clone();
     }
     with_suffix(list, behind)
+}
+
+#[cfg(test)]
+mod tests {
+    /// The codes of the findings about a table with a cell under a heading.
+    fn codes(heading: &str, is: &str, cell: &str) -> Vec<&'static str> {
+        let xml = "<mujoco><option timestep='0.001'/><worldbody><body pos='0 0 1'><freejoint/><geom size='.05'/></body></worldbody></mujoco>";
+        let lab = serde_json::json!({"stopAt": 1, "xml": xml, "readouts": [{"label": "height (m)", "expr": "data.qpos[2]"}],
+            "verify": {"measure": {"t": "crossing(data.qpos[2])"}, "table": [{"column": heading, "row": "Earth", "is": is}]}});
+        let text =
+            format!("```lab simlab\n{lab}\n```\n\n| planet | {heading} |\n|---|---|\n| Earth | {cell} |\n");
+        let report = crate::Checker::new(|_: &str| None::<String>).check("fall.md", &text);
+        report.findings.iter().map(|finding| finding.code).collect()
+    }
+
+    #[test]
+    fn a_heading_that_computes_needs_an_expression_that_computes() {
+        for heading in [
+            "1000 t (s)",
+            "time ×10³ (s)",
+            "10³·time (s)",
+            "2·time (s)",
+            "√time (s)",
+            "−time (s)",
+            "log time",
+            "time² (s)",
+        ] {
+            assert_eq!(codes(heading, "t", "0.451"), ["quote-unclear"], "{heading}");
+        }
+        assert_eq!(codes("1/time", "t", "0.451"), ["quote-unclear"]);
+        assert_eq!(codes("time (s)", "t", "0.451"), [""; 0]);
+        assert_eq!(codes("1000 t", "1000 * t", "451"), [""; 0]);
+    }
 }

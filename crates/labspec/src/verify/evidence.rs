@@ -185,7 +185,7 @@ impl JointDraws<'_> {
 }
 
 /// Searches between tried values for one that changes the outcome of a claim, guided by the comparisons of the claim.
-fn find_changing_value(
+pub(super) fn find_changing_value(
     comparisons: &[(f64, Vec<Comparison>)],
     current: ClaimValue,
     says: &mut dyn FnMut(f64) -> Option<(ClaimValue, Vec<Comparison>)>,

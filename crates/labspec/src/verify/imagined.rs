@@ -3,7 +3,7 @@
 //! whatever is simulated. A claim that is true for every imagined run is true for any run.
 
 use super::aggregate::AggregateKind;
-use super::anything::{Anything, DrawMode};
+use super::anything::{Anything, DrawMode, DrawSource, between};
 use super::bound::BoundVerify;
 use super::bound_run::CompiledText;
 use super::compiled_claim::{ClaimInputs, CompiledClaim, reads_ctx};
@@ -83,11 +83,12 @@ impl BoundVerify<'_> {
         let results = |seed: u64| {
             self.idle_in(scene, |session| {
                 let world = &session.world;
-                let host = Anything { world, seeds: [seed, 0], manner: DrawMode::Any, time: Some(0.0) };
+                let source = DrawSource { seeds: [seed, 0], manner: DrawMode::Any };
+                let host = Anything { world, source, toward: None, time: Some(0.0) };
                 let mut imagined = ImaginedRun { host, context: session.context.clone() };
                 let mut measure = Measure::new(program, text);
                 for sample in 0..CTX_SAMPLES {
-                    imagined.host.seeds = [seed, seed ^ (sample + 1) << 40];
+                    imagined.host.source = source.at_sample(sample);
                     imagined.host.time = Some(sample as f64);
                     imagined.execute(programs);
                     measure.sample(&mut imagined);
@@ -126,7 +127,7 @@ impl BoundVerify<'_> {
         if counts && 8.0 * largest > MOST_SAMPLES {
             return true;
         }
-        let (mut decided, mut looks) = (0, 0);
+        let (mut decided, mut looks) = (Vec::new(), 0);
         for set in 0..MAX_RUN_SETS {
             let long = counts && set % 5 == 4;
             let samples = if long { 8 * largest as usize } else { SAMPLES[set as usize % SAMPLES.len()] };
@@ -134,14 +135,19 @@ impl BoundVerify<'_> {
             if looks > MAX_EVALUATIONS {
                 break;
             }
-            let Some(inputs) = self.draw_inputs(claim, nominal, &numbers, set, samples) else { return true };
+            let drawn = DrawnSet { set, toward: None, samples };
+            let Some(inputs) = self.draw_inputs(claim, nominal, &numbers, drawn) else { return true };
             let Some(then) = says(&inputs) else { continue };
             if then.differs(current) {
                 return true;
             }
-            decided += 1;
+            decided.push((drawn, inputs));
         }
-        decided < DECIDED
+        decided.len() < DECIDED
+            || self.differs_between(claim, &decided, current, &mut |drawn| {
+                let inputs = self.draw_inputs(claim, nominal, &numbers, drawn)?;
+                Some((says(&inputs)?, inputs))
+            })
     }
 
     /// The measures that a claim reads, with their positions among the numbers and their runs.
@@ -161,16 +167,16 @@ impl BoundVerify<'_> {
         claim: &CompiledClaim,
         nominal: &ClaimInputs,
         numbers: &[f64],
-        set: u64,
-        samples: usize,
+        drawn: DrawnSet,
     ) -> Option<ClaimInputs> {
         let mut inputs = nominal.clone();
-        let mut draws = Draws::new(5 + set);
-        draws.unit();
+        let mut draws = SetDraws::new(drawn);
         for place in &claim.reads {
             match self.layout().slots.get(*place) {
-                Some(Slot::Warnings(_)) => inputs.set_value(*place, (4.0 * draws.unit()).floor()),
-                Some(Slot::Found(_)) => inputs.set_value(*place, ValueKind::ANY.nearest(draws.any())),
+                Some(Slot::Warnings(_)) => inputs.set_value(*place, draws.next(&|d| 4.0 * d.unit()).floor()),
+                Some(Slot::Found(_)) => {
+                    inputs.set_value(*place, ValueKind::ANY.nearest(draws.next(&Draws::any)));
+                }
                 _ => {}
             }
         }
@@ -182,27 +188,27 @@ impl BoundVerify<'_> {
         runs.dedup();
         let nowhere = Text { map: SourceMap::whole(0, 0..0), value: String::new() };
         for run in runs {
-            let seed = set.wrapping_mul(0x1_0001) ^ (run as u64) << 20;
-            let manner = manner(&mut draws, numbers);
+            let (source, toward) = draws.sources(run, numbers);
             let here = || measures.iter().filter(|(_, owner, _)| *owner == run);
             let scene = self.runs.get(run)?.scene;
             let texts = here().map(|(.., m)| &m.program).chain(on_the_spot.filter(|_| run == 0));
             let programs = texts.into_iter().any(reads_ctx).then(|| self.scenes.get(scene)).flatten();
             self.idle_in(scene, |session| {
-                let host = Anything { world: &session.world, seeds: [seed, 0], manner, time: Some(0.0) };
+                let host = Anything { world: &session.world, source, toward, time: Some(0.0) };
                 let mut imagined = ImaginedRun { host, context: session.context.clone() };
                 let mut running: Vec<Measure<'_>> =
                     here().map(|(.., m)| Measure::new(&m.program, &m.text)).collect();
                 let mut parts = on_the_spot.filter(|_| run == 0).map(|p| Measure::new(p, &nowhere));
                 let mut time = 0.0;
-                for sample in 0..samples as u64 {
-                    imagined.host.seeds = [seed, seed ^ (sample + 1) << 40];
+                for sample in 0..drawn.samples as u64 {
+                    imagined.host.source = source.at_sample(sample);
+                    imagined.host.toward = toward.map(|(other, f)| (other.at_sample(sample), f));
                     imagined.host.time = Some(time);
                     if let Some(bound) = programs {
                         imagined.execute(&bound.scene.programs);
                     }
                     running.iter_mut().chain(&mut parts).for_each(|m| m.sample(&mut imagined));
-                    time += draws.any().abs();
+                    time += draws.next(&|d| d.any().abs());
                 }
                 for (measure, (place, ..)) in running.into_iter().zip(here()) {
                     inputs.set_value(*place, measure.finish(&mut imagined).value);
@@ -213,6 +219,55 @@ impl BoundVerify<'_> {
             })?;
         }
         Some(inputs)
+    }
+}
+
+/// A set of imagined runs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct DrawnSet {
+    /// The number of the set, which is the seed of its draws.
+    pub(super) set: u64,
+    /// Another set and a fraction: every drawn value lies that far between the values of the two sets.
+    pub(super) toward: Option<(u64, f64)>,
+    /// Number of samples of each run.
+    pub(super) samples: usize,
+}
+
+/// The draws of a set of imagined runs.
+struct SetDraws {
+    drawn: DrawnSet,
+    draws: Draws,
+    other: Option<Draws>,
+}
+
+impl SetDraws {
+    fn new(drawn: DrawnSet) -> SetDraws {
+        let of = |set: u64| {
+            let mut draws = Draws::new(5 + set);
+            draws.unit();
+            draws
+        };
+        SetDraws { drawn, draws: of(drawn.set), other: drawn.toward.map(|(set, _)| of(set)) }
+    }
+
+    /// The next drawn number.
+    fn next(&mut self, draw: &dyn Fn(&mut Draws) -> f64) -> f64 {
+        let x = draw(&mut self.draws);
+        match (&mut self.other, self.drawn.toward) {
+            (Some(other), Some((_, fraction))) => between(x, draw(other), fraction),
+            _ => x,
+        }
+    }
+
+    /// The sources of the values of a run.
+    fn sources(&mut self, run: usize, numbers: &[f64]) -> (DrawSource, Option<(DrawSource, f64)>) {
+        let source = |set: u64, draws: &mut Draws| {
+            let seed = set.wrapping_mul(0x1_0001) ^ (run as u64) << 20;
+            DrawSource { seeds: [seed, 0], manner: manner(draws, numbers) }
+        };
+        let first = source(self.drawn.set, &mut self.draws);
+        let other = self.other.as_mut().zip(self.drawn.toward);
+        (first, other.map(|(draws, (set, fraction))| (source(set, draws), fraction)))
     }
 }
 

@@ -43,6 +43,7 @@ mod format;
 mod found;
 mod grounded;
 mod imagined;
+mod interpolated;
 pub mod judge;
 mod judgement;
 mod layout;

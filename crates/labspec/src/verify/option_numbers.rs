@@ -19,8 +19,8 @@ const NEAREST: f64 = 1.5;
 #[derive(Clone, Debug, PartialEq)]
 struct RequiredRange {
     quantity: String,
-    /// Whether the quantity is a ratio of two measured quantities.
-    ratio: bool,
+    /// The two measured quantities of which it is the ratio.
+    ratio: Option<[String; 2]>,
     low: f64,
     high: f64,
 }
@@ -62,7 +62,7 @@ fn contradiction(
     let closed = required.low.is_finite() && required.high.is_finite();
     let stated = match option_text(&option.value, bound.stage().languages()) {
         Some(claimed) => claimed,
-        None if closed && required.ratio => return contradicted_ratio(option, &required),
+        None if closed => return contradicted_ratio(bound, outcome, option, condition, &required),
         None => return None,
     };
     // A condition with one side may bound another quantity than the option mentions: a height instead of a fall distance.
@@ -109,14 +109,43 @@ fn contradiction(
 }
 
 /// The contradiction between an option that states a ratio and a condition that requires another one.
-fn contradicted_ratio(option: &Text, required: &RequiredRange) -> Option<String> {
+fn contradicted_ratio(
+    bound: &BoundVerify<'_>,
+    outcome: &MeasuredRuns,
+    option: &Text,
+    condition: &Text,
+    required: &RequiredRange,
+) -> Option<String> {
+    let [quantity, base] = required.ratio.as_ref()?;
     let stated = option_ratio(&option.value)?;
+    let text = Text { map: SourceMap::whole(quantity.len(), condition.span()), value: quantity.clone() };
+    let measured = units::of_claim(bound, outcome, &text);
+    let mut may_be = stated.may_be.clone();
+    if stated.names_another(measured.as_ref()) {
+        may_be.extend(stated.of_another());
+    }
+    // An option compares a later run with an earlier one, unless the condition has the order of the words.
+    if !is_later(outcome, quantity, base) {
+        may_be.extend(stated.may_be.iter().map(|x| 1.0 / x).filter(|x| x.is_finite()));
+    }
     let slack = 0.05 * required.low.abs().max(required.high.abs());
     let fits = |x: &f64| required.low - slack <= *x && *x <= required.high + slack;
-    let none = !stated.may_be.iter().any(fits);
+    let none = !may_be.iter().any(fits);
     none.then(|| {
         format!("the option says {}, but its condition {}", stated.text, range(required.low, required.high))
     })
+}
+
+/// Whether a measure belongs to a run that is declared after that of another measure.
+fn is_later(outcome: &MeasuredRuns, quantity: &str, base: &str) -> bool {
+    let run = |text: &str| {
+        outcome.runs.iter().position(|run| {
+            let rest =
+                text.strip_prefix(run.title().as_str()).or_else(|| text.strip_prefix(run.name.as_str()));
+            rest.is_some_and(|rest| rest.starts_with(['.', '[']))
+        })
+    };
+    run(quantity).zip(run(base)).is_some_and(|(a, b)| a > b)
 }
 
 /// `asks for 1.13 to 1.33`
@@ -136,21 +165,56 @@ fn required_range(e: &Expr) -> Option<RequiredRange> {
             let (quantity, number, flipped) = match (constant(left), constant(right)) {
                 (None, Some(number)) => (left, number, false),
                 (Some(number), None) => (right, number, true),
+                (None, None) => return times_another(*op, left, right),
                 _ => return None,
             };
-            let below = match op {
-                BinaryOp::Less | BinaryOp::LessEqual => !flipped,
-                BinaryOp::Greater | BinaryOp::GreaterEqual => flipped,
-                _ => return None,
-            };
+            let below = is_below(*op, flipped)?;
             if let Some(inner) = magnitude(quantity) {
                 return if below { around(inner, number) } else { None };
             }
-            let ratio = is_ratio(quantity);
-            let quantity = single(quantity).then(|| print(quantity))?;
             let (low, high) = if below { (f64::NEG_INFINITY, number) } else { (number, f64::INFINITY) };
-            Some(RequiredRange { quantity, ratio, low, high })
+            single(quantity).then(|| RequiredRange {
+                quantity: print(quantity),
+                ratio: ratio_of(quantity),
+                low,
+                high,
+            })
         }
+        _ => None,
+    }
+}
+
+/// Whether a comparison requires its left side, or its right one if `flipped`, to be smaller; `None` for an equality.
+fn is_below(op: BinaryOp, flipped: bool) -> Option<bool> {
+    match op {
+        BinaryOp::Less | BinaryOp::LessEqual => Some(!flipped),
+        BinaryOp::Greater | BinaryOp::GreaterEqual => Some(flipped),
+        _ => None,
+    }
+}
+
+/// The range of the ratio of two measured quantities in a comparison with a multiple: `b.t > 1.9 * a.t`.
+fn times_another(op: BinaryOp, left: &Expr, right: &Expr) -> Option<RequiredRange> {
+    let (quantity, (number, base), flipped) = match (multiple(left), multiple(right)) {
+        (None, Some(multiple)) => (left, multiple, false),
+        (Some(multiple), None) => (right, multiple, true),
+        _ => return None,
+    };
+    if !is_name(quantity) || !is_name(base) || number <= 0.0 {
+        return None;
+    }
+    let (low, high) =
+        if is_below(op, flipped)? { (f64::NEG_INFINITY, number) } else { (number, f64::INFINITY) };
+    let [quantity, base] = [print(quantity), print(base)];
+    Some(RequiredRange { quantity: format!("{quantity} / {base}"), ratio: Some([quantity, base]), low, high })
+}
+
+/// The number and the other factor of a product.
+fn multiple(e: &Expr) -> Option<(f64, &Expr)> {
+    let ExprKind::Binary { op: BinaryOp::Multiply, left, right } = &e.kind else { return None };
+    match (constant(left), constant(right)) {
+        (Some(number), None) => Some((number, right)),
+        (None, Some(number)) => Some((number, left)),
         _ => None,
     }
 }
@@ -181,15 +245,14 @@ fn around(inner: &Expr, off: f64) -> Option<RequiredRange> {
     {
         return single(left).then(|| RequiredRange {
             quantity: print(left),
-            ratio: is_ratio(left),
+            ratio: ratio_of(left),
             low: unit * (centre - off),
             high: unit * (centre + off),
         });
     }
-    let ratio = is_ratio(quantity);
     single(quantity).then(|| RequiredRange {
         quantity: print(quantity),
-        ratio,
+        ratio: ratio_of(quantity),
         low: centre - off,
         high: centre + off,
     })
@@ -230,9 +293,20 @@ fn single(e: &Expr) -> bool {
     }
 }
 
-/// Whether an expression is the ratio of two measured quantities.
-fn is_ratio(e: &Expr) -> bool {
-    matches!(&e.kind, ExprKind::Binary { op: BinaryOp::Divide, left, right } if single(left) && single(right))
+/// Whether an expression is the name of one measured quantity.
+fn is_name(e: &Expr) -> bool {
+    match &e.kind {
+        ExprKind::Name(_) => true,
+        ExprKind::Member { object, .. } => is_name(object),
+        ExprKind::Index { object, index, .. } => is_name(object) && constant(index).is_some(),
+        _ => false,
+    }
+}
+
+/// The two measured quantities of which an expression is the ratio.
+fn ratio_of(e: &Expr) -> Option<[String; 2]> {
+    let ExprKind::Binary { op: BinaryOp::Divide, left, right } = &e.kind else { return None };
+    (single(left) && single(right)).then(|| [print(left), print(right)])
 }
 
 #[cfg(test)]
@@ -249,13 +323,66 @@ mod tests {
             ("m > 1 && m < 2", "m", 1.0, 2.0),
             ("1 < 1000 * m", "1000 * m", 1.0, f64::INFINITY),
             ("abs(m / 2 - 1) < 0.5", "m", 1.0, 3.0),
+            ("b.t > 1.9 * a.t && a.t * 2.1 > b.t", "b.t / a.t", 1.9, 2.1),
+            ("b.t / a.t > 1.9 && b.t <= 2.1 * a.t", "b.t / a.t", 1.9, 2.1),
         ] {
             assert_eq!(required(text), Some((quantity.to_string(), low, high)), "{text}");
         }
-        for text in
-            ["a < b", "abs(a - b) < 1", "a > 1 && b < 2", "a - b > 1", "a > 1 || a < 0", "true", "abs(m) > 1"]
-        {
+        for text in [
+            "a < b",
+            "abs(a - b) < 1",
+            "a > 1 && b < 2",
+            "a - b > 1",
+            "a > 1 || a < 0",
+            "2 * a < 3 * b",
+            "a > -2 * b",
+            "true",
+            "abs(m) > 1",
+        ] {
             assert_eq!(required(text), None, "{text}");
+        }
+    }
+
+    /// The messages about a question whose first option has a text and a condition: the fall from four times the height
+    /// takes twice as long.
+    fn messages(option: &str, condition: &str) -> Vec<String> {
+        let control = serde_json::json!({"label": "height", "param": "h", "min": 1, "max": 4, "step": 1, "value": 1, "reset": true});
+        let lab = serde_json::json!({"stopAt": 2, "setup": "data.qpos[2] = ctx.h", "controls": [control],
+            "xml": "<mujoco><worldbody><body pos='0 0 1'><freejoint/><geom size='.05'/></body></worldbody></mujoco>"});
+        let verify = serde_json::json!({"lab": lab, "runs": {"a": {"set": {"height": 1}}, "b": {"set": {"height": 4}}},
+            "measure": {"t": "crossing(data.qpos[2])"}, "options": [condition, "b.t < 1.5 * a.t"]});
+        let question = serde_json::json!({"q": "How long?", "options": [option, "shorter"], "answer": 0, "verify": verify});
+        let quiz = serde_json::json!({"id": "q", "questions": [question]}).to_string();
+        let report = crate::Checker::new(|_: &str| None::<String>).check("q.json", &quiz);
+        report.findings.iter().map(|finding| finding.message.clone()).collect()
+    }
+
+    #[test]
+    fn the_ratio_of_an_option_is_that_of_its_condition() {
+        let conditions = ["abs(b.t / a.t - 2) < 0.1", "b.t > 1.9 * a.t && b.t < 2.1 * a.t"];
+        for condition in conditions {
+            for option in
+                ["twice as long", "two times longer", "it doubles", "100 % longer", "four times the height"]
+            {
+                assert_eq!(messages(option, condition), [""; 0], "{option}: {condition}");
+            }
+            for option in [
+                "half as long",
+                "three times as long",
+                "five times as long",
+                "four times as long",
+                "a third longer",
+            ] {
+                let all = messages(option, condition);
+                assert!(
+                    all.iter().any(|m| m.contains("its condition asks for 1.9 to 2.1")),
+                    "{option}: {all:?}"
+                );
+            }
+        }
+        // The condition divides the earlier run by the later one: the words may compare in either order.
+        for option in ["twice as long", "half as long"] {
+            assert_eq!(messages(option, "abs(a.t / b.t - 0.5) < 0.02"), [""; 0], "{option}");
         }
     }
 }

@@ -74,7 +74,7 @@ pub(super) fn is_sure(unit: &str) -> bool {
 pub(super) fn is_word(unit: &str) -> bool {
     matches!(
         unit.to_lowercase().as_str(),
-        "turn" | "second" | "bar" | "degree" | "minute" | "day" | "stone" | "mil"
+        "turn" | "second" | "bar" | "degree" | "minute" | "day" | "tag" | "stone" | "mil"
     )
 }
 

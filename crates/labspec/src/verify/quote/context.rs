@@ -1,6 +1,7 @@
 //! Finds text before a quantity that makes it part of another expression. Text that is not understood is refused: a number
 //! counts as quoted only where the text certainly states it.
 
+use super::arithmetic::is_multiplied;
 use super::denial::is_denied;
 use super::numeral::Chars;
 use crate::language::Languages;
@@ -235,6 +236,7 @@ fn words_before(chars: Chars<'_>, index: usize) -> Option<&'static str> {
         return Some(BOUND);
     }
     if CHANGING_WORDS.into_iter().any(ends)
+        || is_multiplied(&line)
         || line.ends_with("n't")
         || is_denied(&line) && !largest
         || line.ends_with("% of")

@@ -1,12 +1,13 @@
 //! Finds text after a quantity that makes it part of another expression.
 
+use super::arithmetic::computes;
 use super::clause_unit::{is_sure, is_word};
 use super::context::{BOUND, DIFFERENCE, FIGURES, FORMULA, LETTERS, MAX_CONTEXT};
 use super::numeral::{Chars, fraction};
 use labspec_bind::units::{self, is_wide};
 
 /// Words after a number that change its value.
-const CHANGING_WORDS: [&str; 20] = [
+const CHANGING_WORDS: [&str; 27] = [
     "or more",
     "or less",
     "or longer",
@@ -27,6 +28,13 @@ const CHANGING_WORDS: [&str; 20] = [
     "and a half",
     "oder mehr",
     "ou plus",
+    "divided by",
+    "multiplied by",
+    "geteilt durch",
+    "dividiert durch",
+    "multipliziert mit",
+    "divisé par",
+    "multiplié par",
 ];
 
 const UNSPACED_CHANGING_WORDS: [&str; 19] = [
@@ -207,7 +215,7 @@ fn words_after(chars: Chars<'_>, index: usize) -> Option<&'static str> {
     let line = near.split('\n').next().unwrap_or("").to_lowercase();
     let begins =
         |word: &str| line.strip_prefix(word).is_some_and(|rest| !rest.starts_with(char::is_alphanumeric));
-    if CHANGING_WORDS.into_iter().any(begins) {
+    if CHANGING_WORDS.into_iter().any(begins) || computes(&line) {
         return Some(UNKNOWN_SUFFIX);
     }
     letter(chars, index)

@@ -1,11 +1,13 @@
 //! Quoted numbers: they are found in the rendered text, read, and compared with the simulation at the printed precision.
 
+mod arithmetic;
 mod check_quote;
 mod clause_unit;
 mod context;
 mod context_after;
 mod denial;
 mod fold;
+mod heading;
 mod hidden;
 mod html;
 mod markdown_cell;
@@ -13,6 +15,7 @@ mod messages;
 mod modifier;
 mod number;
 mod numeral;
+mod option_ratio;
 mod option_text;
 mod pieces;
 mod places;
@@ -33,9 +36,11 @@ mod unit_text;
 mod words;
 
 pub(super) use check_quote::{check_quote, places_of_quote};
+pub(super) use heading::operation_in_heading;
 pub(super) use markdown_cell::unit_of_head;
 pub use number::{NumberForm, Quoted, Style};
-pub(super) use option_text::{OptionNumber, option_ratio, option_text};
+pub(super) use option_ratio::option_ratio;
+pub(super) use option_text::{OptionNumber, option_text};
 pub use printed::{OutputBlock, OutputMatch, numbers_in_outputs};
 pub use quote_claim::{OtherValue, QuoteOutcome, QuoteState};
 pub(super) use quote_claim::{QuoteClaim, QuotePlace, QuoteValue};

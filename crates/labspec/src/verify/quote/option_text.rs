@@ -23,16 +23,6 @@ pub(in crate::verify) struct OptionNumber {
     pub(in crate::verify) alone: bool,
 }
 
-/// The ratio that an option states: `twice as deep`, `50 %`.
-#[derive(Clone, Debug, PartialEq)]
-pub(in crate::verify) struct OptionRatio {
-    /// As it is written.
-    pub(in crate::verify) text: String,
-    /// The possible values of the ratio. The words do not state which of two values is the divisor, whether a loss or a
-    /// remainder is meant, or how one quantity depends on the other (a height on a speed).
-    pub(in crate::verify) may_be: Vec<f64>,
-}
-
 /// Relative tolerance of a number: as it is printed, and with "about" before it.
 const PRINTED: f64 = 0.05;
 const ABOUT: f64 = 0.1;
@@ -124,81 +114,6 @@ fn has_no_content(rest: &str) -> bool {
         word.chars().count() < 2
             || ["about", "around", "roughly", "approximately", "nearly", "almost"].contains(&word)
     })
-}
-
-/// Words for factors.
-const FACTOR_WORDS: [(&str, f64); 23] = [
-    ("twice", 2.0),
-    ("double", 2.0),
-    ("doubles", 2.0),
-    ("doubled", 2.0),
-    ("half", 0.5),
-    ("halves", 0.5),
-    ("halved", 0.5),
-    ("triple", 3.0),
-    ("triples", 3.0),
-    ("a third", 1.0 / 3.0),
-    ("one third", 1.0 / 3.0),
-    ("a quarter", 0.25),
-    ("one quarter", 0.25),
-    ("a tenth", 0.1),
-    ("two times", 2.0),
-    ("three times", 3.0),
-    ("four times", 4.0),
-    ("five times", 5.0),
-    ("six times", 6.0),
-    ("seven times", 7.0),
-    ("eight times", 8.0),
-    ("nine times", 9.0),
-    ("ten times", 10.0),
-];
-
-/// The only ratio that an option states; `None` where it states several, or other numbers.
-pub(in crate::verify) fn option_ratio(option: &str) -> Option<OptionRatio> {
-    let (rendered, _) = html::strip(option);
-    let (folded, _) = fold::fold(&rendered, false);
-    let folded = folded.replace("**", "").replace("__", "");
-    let chars: Vec<char> = folded.chars().take(2000).collect();
-    let chars = Chars(&chars);
-    let all = quantities(chars);
-    let lower = folded.to_lowercase();
-    let is_word = |start: usize, length: usize| {
-        let letter = |c: Option<char>| c.is_some_and(char::is_alphanumeric);
-        !letter(lower.get(..start).and_then(|t| t.chars().next_back()))
-            && !letter(lower.get(start + length..).and_then(|t| t.chars().next()))
-    };
-    // Example: `two and a half times`.
-    if lower.contains("and a half") {
-        return None;
-    }
-    let words: Vec<(String, f64)> = FACTOR_WORDS
-        .iter()
-        .filter(|(word, _)| lower.match_indices(word).any(|(start, found)| is_word(start, found.len())))
-        .map(|(word, x)| (word.to_string(), *x))
-        .collect();
-    let (text, x, share) = match (all.as_slice(), words.as_slice()) {
-        ([], [(word, x)]) => (word.clone(), *x, false),
-        ([q], [])
-            if q.refused.is_none() && matches!(q.quoted.form, NumberForm::Plain(_) | NumberForm::Share) =>
-        {
-            let text = chars.text(q.whole.start, q.whole.end);
-            match q.unit.as_ref().filter(|unit| unit.is_own()) {
-                Some(unit) => (text, q.quoted.value * 10f64.powi(unit.share()?), true),
-                None => {
-                    let behind = chars.text(q.whole.end, q.whole.end + 8).to_lowercase();
-                    let times =
-                        behind.trim_start().starts_with("times") || behind.trim_start().starts_with('×');
-                    times.then(|| (format!("{text} times"), q.quoted.value, false))?
-                }
-            }
-        }
-        _ => return None,
-    };
-    let bases = if share { vec![x, 1.0 - x, 1.0 + x] } else { vec![x] };
-    let powers = [1.0, -1.0, 2.0, -2.0, 0.5, -0.5, 3.0, -3.0, 1.0 / 3.0, -1.0 / 3.0, 1.5, -1.5, 4.0, -4.0];
-    let ratios = bases.iter().flat_map(|b| powers.map(|p| b.powf(p)));
-    let may_be = ratios.flat_map(|r| [r, r - 1.0, 1.0 - r, -r]).filter(|x| x.is_finite()).collect();
-    Some(OptionRatio { text, may_be })
 }
 
 /// Numbers in words.
@@ -295,34 +210,5 @@ mod tests {
         }
         let alone = |text: &str| option_text(text, Languages::ALL).unwrap().alone;
         assert!(alone("about 7 m") && alone("h = 7 m.") && alone("**7 m**") && !alone("It rises to 7 m"));
-    }
-
-    #[test]
-    fn the_ratio_of_an_option_is_read() {
-        let is = |text: &str, x: f64| {
-            option_ratio(text).is_some_and(|r| r.may_be.iter().any(|y| (x - y).abs() < 1e-9))
-        };
-        for (text, x) in [
-            ("Twice as deep", 2.0),
-            ("Twice as deep", 0.5),
-            ("half", 0.5),
-            ("about 50 %", 0.5),
-            ("it loses 30 % of it", 0.7),
-            ("3 times as long", 3.0),
-            ("four times", 16.0),
-        ] {
-            assert!(is(text, x), "{text} {x}");
-        }
-        assert!(!is("Twice as deep", 5.0) && !is("30 %", 0.05) && !is("20 times", 5.0));
-        for text in [
-            "twice as much as 3 s",
-            "half or double",
-            "halfway",
-            "two and a half times",
-            "three balls",
-            "it falls",
-        ] {
-            assert_eq!(option_ratio(text), None, "{text}");
-        }
     }
 }

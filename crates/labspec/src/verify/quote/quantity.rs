@@ -108,6 +108,7 @@ fn read(chars: Chars<'_>, separate: bool) -> Vec<Quantity> {
             .or_else(|| before(chars, q.whole.start))
             .or_else(|| after(chars, q.whole.end, q.unit.is_some()));
     }
+    refuse_compounds(chars, &mut all);
     share(chars, &mut all);
     for q in all.iter_mut().filter(|q| q.unit.is_none()) {
         q.unit = clause_unit(chars, q.whole.clone());
@@ -134,6 +135,24 @@ pub(super) fn singles(chars: Chars<'_>) -> Vec<Quantity> {
     };
     numbers(chars).into_iter().map(one).collect()
 }
+
+/// In `2 h 3 min 0.45 s` no part is the whole time.
+fn refuse_compounds(chars: Chars<'_>, all: &mut [Quantity]) {
+    let dimension = |q: &Quantity| q.unit.as_ref().and_then(|unit| unit.dimension);
+    for i in 1..all.len() {
+        let Some([first, second]) = all.get_mut(i - 1..=i) else { continue };
+        let beside = chars.text(first.whole.end, second.whole.start).trim().is_empty();
+        let units = dimension(first).zip(dimension(second));
+        // A number in a larger unit is smaller.
+        let larger = units.is_some_and(|(a, b)| a.agrees(&b) && a.factor < 0.999 * b.factor);
+        if beside && larger {
+            first.refused = first.refused.or(Some(COMPOUND));
+            second.refused = second.refused.or(Some(COMPOUND));
+        }
+    }
+}
+
+const COMPOUND: &str = "a part of a quantity in several units";
 
 /// In `2.31 to 3.73 N m` and `0.1, 0.2 and 0.3 s` the first numbers get the unit of the last.
 fn share(chars: Chars<'_>, all: &mut [Quantity]) {

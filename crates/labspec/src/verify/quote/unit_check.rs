@@ -116,6 +116,10 @@ pub(in crate::verify) fn answer_unit(text: Option<&str>, found: Option<Dimension
     }
     let unit = Unit { text: plain, dimension: read.dimension, link: Link::Shared };
     match hold(&unit, Some(&found)) {
+        // A number literal that is a factor may have a dimension, so another dimension is possible, but not certain.
+        UnitMatch::Fits if !read.dimension.is_some_and(|expected| found.agrees(&expected)) => {
+            AnswerUnit::Unknown
+        }
         UnitMatch::Fits => AnswerUnit::Equal(1.0),
         UnitMatch::Wrong | UnitMatch::Unsure => AnswerUnit::Wrong(unit.text, written(&found)),
         UnitMatch::Unknown => AnswerUnit::Unknown,
@@ -153,8 +157,15 @@ mod tests {
             assert!(matches!(checked(unit, "s"), AnswerUnit::Unread(..)), "{unit}");
         }
         assert!(matches!(checked("furlongs", "s"), AnswerUnit::Wrong(..)));
-        // A number literal that is a factor may have a dimension.
-        assert_eq!(answer_unit(Some("m/s"), d("s").map(|s| s.times(9.81))), AnswerUnit::Equal(1.0));
+        // A number literal that is a factor may have a dimension, so the unit is not certain.
+        for unit in ["m/s", "kg", "m", "N"] {
+            assert_eq!(answer_unit(Some(unit), d("s").map(|s| s.times(9.81))), AnswerUnit::Unknown, "{unit}");
+        }
+        assert_eq!(answer_unit(Some("kg"), d("s").map(|s| s.times(1000.0))), AnswerUnit::Unknown);
+        assert_eq!(answer_unit(Some("ms"), d("s").map(|s| s.times(1000.0))), AnswerUnit::Equal(1.0));
+        // The factor of degrees does not make an angle of a time.
+        let degrees = d("s").map(|s| s.times(1f64.to_degrees()));
+        assert!(matches!(answer_unit(Some("°"), degrees), AnswerUnit::Wrong(..)));
         // The value is already in milliseconds.
         assert_eq!(answer_unit(Some("ms"), d("ms")), AnswerUnit::Equal(1.0));
         assert!(matches!(answer_unit(Some("s"), d("ms")), AnswerUnit::Wrong(..)));

@@ -55,7 +55,7 @@ impl Unit {
 
     /// Whether it is a name of counted things: `steps`, `bounces`.
     pub(super) fn is_counted(&self) -> bool {
-        COUNTED.contains(&self.text.as_str())
+        is_counted(&self.text)
     }
 
     /// Whether it may also be a symbol of a formula: `2 h` means two hours or two timesteps.
@@ -84,9 +84,7 @@ fn unit(line: &str) -> IResult<&str, Unit> {
     let space = (opt(char(' ')), not(char(' ')));
     // The superscript ring of TeX: `30^\circ`.
     let ring = opt(terminated(char('^'), peek(char('°'))));
-    let counted = map(verify(word, |word: &str| COUNTED.contains(&word)), |word| {
-        unit_named(word, Some(Dimension::NUMBER))
-    });
+    let counted = map(verify(word, is_counted), |word| unit_named(word, Some(Dimension::NUMBER)));
     // A number per thing that is not a unit, such as `per step`.
     let of_things = map(recognize((over, word)), |text| unit_named(text, None));
     alt((hyphenated, preceded((space, ring), alt((percentage, measured, counted, of_things))))).parse(line)
@@ -147,6 +145,11 @@ const COUNTED: [&str; 15] = [
     "jumps",
     "pieces",
 ];
+
+/// Whether a word is a name of counted things, in capital letters or not.
+fn is_counted(word: &str) -> bool {
+    COUNTED.contains(&word.to_lowercase().as_str())
+}
 
 /// The letters of a word.
 fn word(text: &str) -> IResult<&str, &str> {

@@ -34,7 +34,7 @@ fn state(text: &str, quote: &str, computed: f64, unit: &str) -> QuoteState {
 const RIGHT: QuoteState = QuoteState::Right;
 
 /// Numbers other than half a second that contain the characters `0.5`.
-const OTHERS: [&str; 110] = [
+const OTHERS: [&str; 135] = [
     "minus 0.5 s",
     "- 0.5 s",
     "-0.5 s",
@@ -145,6 +145,31 @@ const OTHERS: [&str; 110] = [
     "负0.5秒",
     "0.5秒以上",
     "每秒0.5米",
+    "1 min 0.5 s",
+    "2 h 3 min 0.5 s",
+    "three 0.5 s",
+    "3x 0.5 s",
+    "tenfold 0.5 s",
+    "0.5 s times 10",
+    "0.5 s plus 10 s",
+    "0.5 s minus 10 s",
+    "0.5 s divided by 10",
+    "zehnmal 0.5 s",
+    "zweimal 0.5 s",
+    "das Doppelte von 0.5 s",
+    "die Hälfte von 0.5 s",
+    "ein Zehntel von 0.5 s",
+    "0.5 Tage",
+    "0.5 Std.",
+    "0.5 Zoll",
+    "0.5 Jahre",
+    "0.5 Wochen",
+    "0.5 Monate",
+    "0.5 Fuß",
+    "0.5 Tonnen",
+    "0.5 jours",
+    "0.5 Steps",
+    "0.5 steps",
 ];
 
 #[test]
@@ -162,6 +187,14 @@ fn other_numbers_are_not_right() {
         }
     }
     assert!(right.is_empty(), "{} are right: {right:#?}", right.len());
+}
+
+/// Words and quantities beside half a second that do not change it.
+#[test]
+fn the_neighbours_of_a_number_may_be_harmless() {
+    for text in ["at 1 m 0.5 s pass", "0.5 s plus tard", "the normal 0.5 s"] {
+        assert_eq!(state(text, "0.5 s", 0.5, "s"), RIGHT, "{text}");
+    }
 }
 
 /// Half a second.

@@ -1,0 +1,277 @@
+//! The ratio that the text of an option states: `twice as deep`, `a third longer`, `50 %`.
+
+use super::modifier::{WordList, last_word};
+use super::number::NumberForm;
+use super::numeral::Chars;
+use super::quantity::quantities;
+use super::{fold, html};
+use crate::language::Languages;
+use labspec_bind::units;
+use labspec_expr::dimension::Dimension;
+use std::ops::Range;
+
+/// The ratio that an option states.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::verify) struct OptionRatio {
+    /// As it is written.
+    pub(in crate::verify) text: String,
+    /// The possible values of the ratio: the words may leave open whether a loss or a remainder is meant.
+    pub(in crate::verify) may_be: Vec<f64>,
+    /// The dimensions of the quantities that the words name; empty where they name none.
+    pub(in crate::verify) named: Vec<Dimension>,
+}
+
+impl OptionRatio {
+    /// Whether the words name a quantity, and not the measured one: a height where the condition compares speeds.
+    pub(in crate::verify) fn names_another(&self, measured: Option<&Dimension>) -> bool {
+        !self.named.is_empty() && !measured.is_some_and(|m| self.named.iter().any(|d| d.agrees(m)))
+    }
+
+    /// The ratios of another quantity, which may depend on the named one by any usual power, directly or inversely.
+    pub(in crate::verify) fn of_another(&self) -> Vec<f64> {
+        let powers =
+            [1.0, -1.0, 2.0, -2.0, 0.5, -0.5, 3.0, -3.0, 1.0 / 3.0, -1.0 / 3.0, 1.5, -1.5, 4.0, -4.0];
+        let ratios = self.may_be.iter().flat_map(|b| powers.map(|p| b.powf(p)));
+        ratios.flat_map(|r| [r, r - 1.0, 1.0 - r, -r]).filter(|x| x.is_finite()).collect()
+    }
+}
+
+/// Words for factors.
+const FACTOR_WORDS: [(&str, f64); 23] = [
+    ("twice", 2.0),
+    ("double", 2.0),
+    ("doubles", 2.0),
+    ("doubled", 2.0),
+    ("half", 0.5),
+    ("halves", 0.5),
+    ("halved", 0.5),
+    ("triple", 3.0),
+    ("triples", 3.0),
+    ("a third", 1.0 / 3.0),
+    ("one third", 1.0 / 3.0),
+    ("a quarter", 0.25),
+    ("one quarter", 0.25),
+    ("a tenth", 0.1),
+    ("two times", 2.0),
+    ("three times", 3.0),
+    ("four times", 4.0),
+    ("five times", 5.0),
+    ("six times", 6.0),
+    ("seven times", 7.0),
+    ("eight times", 8.0),
+    ("nine times", 9.0),
+    ("ten times", 10.0),
+];
+
+/// Comparatives of smaller quantities; every other comparative is one of larger quantities.
+const SMALLER: [&str; 15] = [
+    "less",
+    "fewer",
+    "shorter",
+    "lower",
+    "smaller",
+    "slower",
+    "weaker",
+    "lighter",
+    "shallower",
+    "nearer",
+    "closer",
+    "earlier",
+    "sooner",
+    "narrower",
+    "softer",
+];
+
+/// Beginnings of verbs that state a decrease or an increase: `drops by a third` and `drops to a third` differ.
+const DECREASES: [&str; 8] = ["los", "drop", "fall", "decreas", "shrink", "reduc", "sink", "declin"];
+const INCREASES: [&str; 6] = ["gain", "grow", "rise", "increas", "climb", "add"];
+
+/// Words for quantities, with units of each.
+const QUANTITY_WORDS: [(&str, &[&str]); 34] = [
+    ("long", &["s", "m"]),
+    ("longer", &["s", "m"]),
+    ("short", &["s", "m"]),
+    ("shorter", &["s", "m"]),
+    ("time", &["s"]),
+    ("duration", &["s"]),
+    ("period", &["s"]),
+    ("late", &["s"]),
+    ("later", &["s"]),
+    ("earlier", &["s"]),
+    ("deep", &["m"]),
+    ("deeper", &["m"]),
+    ("depth", &["m"]),
+    ("high", &["m"]),
+    ("higher", &["m"]),
+    ("height", &["m"]),
+    ("far", &["m"]),
+    ("farther", &["m"]),
+    ("distance", &["m"]),
+    ("length", &["m"]),
+    ("fast", &["m/s", "rad/s", "1/s"]),
+    ("faster", &["m/s", "rad/s", "1/s"]),
+    ("slow", &["m/s", "rad/s", "1/s"]),
+    ("slower", &["m/s", "rad/s", "1/s"]),
+    ("speed", &["m/s", "rad/s", "1/s"]),
+    ("velocity", &["m/s", "rad/s", "1/s"]),
+    ("often", &["1/s"]),
+    ("frequency", &["1/s"]),
+    ("energy", &["J"]),
+    ("force", &["N"]),
+    ("mass", &["kg"]),
+    ("heavy", &["kg", "N"]),
+    ("heavier", &["kg", "N"]),
+    ("power", &["W"]),
+];
+
+/// The words of a text.
+fn split_words(text: &str) -> impl Iterator<Item = &str> {
+    text.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty())
+}
+
+/// The only ratio that an option states; `None` where it states several, a bound, or other numbers.
+pub(in crate::verify) fn option_ratio(option: &str) -> Option<OptionRatio> {
+    let (rendered, _) = html::strip(option);
+    let (folded, _) = fold::fold(&rendered, false);
+    let folded = folded.replace("**", "").replace("__", "").to_lowercase();
+    let chars: Vec<char> = folded.chars().take(2000).collect();
+    let chars = Chars(&chars);
+    // Example: `two and a half times`.
+    if folded.contains("and a half") {
+        return None;
+    }
+    let (place, text, x, share) = match (quantities(chars).as_slice(), factor_words(&folded).as_slice()) {
+        ([], [(place, x)]) => (place.clone(), folded.get(place.clone())?.to_string(), *x, false),
+        ([q], [])
+            if q.refused.is_none() && matches!(q.quoted.form, NumberForm::Plain(_) | NumberForm::Share) =>
+        {
+            let text = chars.text(q.whole.start, q.whole.end);
+            let start = chars.text(0, q.whole.start).len();
+            let place = start..start + text.len();
+            match q.unit.as_ref().filter(|unit| unit.is_own()) {
+                Some(unit) => (place, text, q.quoted.value * 10f64.powi(unit.share()?), true),
+                None => {
+                    let behind = folded.get(place.end..)?.trim_start();
+                    let times = ["times", "×"].into_iter().find(|word| behind.starts_with(word))?;
+                    let end = folded.len() - behind.len() + times.len();
+                    (place.start..end, format!("{text} times"), q.quoted.value, false)
+                }
+            }
+        }
+        _ => return None,
+    };
+    let before = folded.get(..place.start)?.trim_end();
+    let is_bound =
+        [WordList::LowerBound, WordList::UpperBound, WordList::SlightlyLess, WordList::SlightlyMore]
+            .into_iter()
+            .any(|list| last_word(before, list, Languages::ALL).is_some());
+    let behind = folded.get(place.end..)?;
+    let may_be = readings(x, share, before, behind);
+    let named = QUANTITY_WORDS.iter().filter(|(word, _)| split_words(&folded).any(|w| w == *word));
+    let named = named.flat_map(|(_, units)| units.iter().filter_map(|unit| units::parse(unit))).collect();
+    (!is_bound).then_some(OptionRatio { text, may_be, named })
+}
+
+/// The words for factors in a text, with their places.
+fn factor_words(lower: &str) -> Vec<(Range<usize>, f64)> {
+    let letter = |c: Option<char>| c.is_some_and(char::is_alphanumeric);
+    let is_word = |place: &Range<usize>| {
+        !letter(lower.get(..place.start).and_then(|t| t.chars().next_back()))
+            && !letter(lower.get(place.end..).and_then(|t| t.chars().next()))
+    };
+    let places = FACTOR_WORDS.iter().filter_map(|(word, x)| {
+        let mut found = lower.match_indices(word).map(|(start, found)| start..start + found.len());
+        Some((found.find(is_word)?, *x))
+    });
+    places.collect()
+}
+
+/// The values of a ratio that a factor and the words around it may state.
+fn readings(x: f64, share: bool, before: &str, behind: &str) -> Vec<f64> {
+    let next = split_words(behind).next().unwrap_or("");
+    let is_part = share || x < 1.0;
+    let is_comparative = next == "more" || SMALLER.contains(&next) || next.len() > 4 && next.ends_with("er");
+    let again = split_words(behind).any(|w| w == "again");
+    let verb = |stems: &[&str]| {
+        let mut all = split_words(before).chain(split_words(behind));
+        all.any(|word| stems.iter().any(|stem| word.starts_with(stem)))
+    };
+    match () {
+        () if is_comparative && SMALLER.contains(&next) && is_part => vec![1.0 - x],
+        () if is_comparative && SMALLER.contains(&next) => vec![1.0 / x, 1.0 / (1.0 + x)],
+        () if (is_comparative || again) && is_part => vec![1.0 + x],
+        () if is_comparative => vec![x, 1.0 + x],
+        () if is_part && verb(&DECREASES) => vec![x, 1.0 - x],
+        () if is_part && verb(&INCREASES) => vec![x, 1.0 + x],
+        () if share => vec![x, 1.0 - x, 1.0 + x],
+        () => vec![x],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_ratio_of_an_option_is_read() {
+        let is = |text: &str, x: f64| {
+            option_ratio(text).is_some_and(|r| r.may_be.iter().any(|y| (x - y).abs() < 1e-9))
+        };
+        for (text, x) in [
+            ("Twice as deep", 2.0),
+            ("half", 0.5),
+            ("Half as long", 0.5),
+            ("half as long again", 1.5),
+            ("a third longer", 4.0 / 3.0),
+            ("a third less", 2.0 / 3.0),
+            ("it drops by a third", 2.0 / 3.0),
+            ("it drops to a third", 1.0 / 3.0),
+            ("two times shorter", 0.5),
+            ("the longer one takes half as long", 0.5),
+            ("about 50 %", 0.5),
+            ("it loses 30 % of it", 0.7),
+            ("30 % longer", 1.3),
+            ("3 times as long", 3.0),
+            ("four times", 4.0),
+        ] {
+            assert!(is(text, x), "{text} {x}");
+        }
+        for (text, x) in [
+            ("Twice as deep", 0.5),
+            ("Twice as deep", 5.0),
+            ("half as long", 2.0),
+            ("a third longer", 1.0 / 3.0),
+            ("a third longer", 2.0 / 3.0),
+            ("three times as long", 2.0),
+            ("four times", 16.0),
+            ("30 %", 0.05),
+            ("30 % less", 1.3),
+            ("20 times", 5.0),
+        ] {
+            assert!(!is(text, x), "{text} {x}");
+        }
+        for text in [
+            "twice as much as 3 s",
+            "half or double",
+            "halfway",
+            "two and a half times",
+            "less than half as long",
+            "nearly twice as long",
+            "three balls",
+            "it falls",
+        ] {
+            assert_eq!(option_ratio(text), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn another_quantity_may_depend_on_the_named_one() {
+        let (time, speed) = (units::parse("s").unwrap(), units::parse("m/s").unwrap());
+        let names =
+            |text: &str, measured: &Dimension| option_ratio(text).unwrap().names_another(Some(measured));
+        assert!(!names("half as long", &time) && names("half as long", &speed));
+        assert!(!names("half", &time) && names("four times the height", &speed));
+        let height = option_ratio("four times the height").unwrap().of_another();
+        assert!(height.contains(&2.0) && height.contains(&0.5) && !height.contains(&5.0));
+    }
+}
