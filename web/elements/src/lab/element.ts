@@ -116,6 +116,7 @@ export class SimLab extends HTMLElement {
 
   disconnectedCallback(): void {
     removeEventListener("hashchange", this.#onHash);
+    this.#panel?.release();
     this.#seen?.disconnect();
     this.#unwatch?.();
     // An element that is moved in its page is connected again at once.

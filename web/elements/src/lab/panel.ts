@@ -57,6 +57,8 @@ export interface Panel {
   /** Announces a text in the live region. */
   say(text: string): void;
   restyle(): void;
+  /** Lets go of the body that the reader holds. */
+  release(): void;
   describe(): string;
   save(): Promise<Uint8Array>;
   dispose(): void;
@@ -87,6 +89,7 @@ export async function openPanel(spec: LabSpec, models: Models, state: Uint8Array
     if (next.time < frame.time) {
       spoken.clear();
       viewport.clearTrail();
+      viewport.grab(null);
     }
     frame = next;
     atStart = false;
@@ -113,6 +116,7 @@ export async function openPanel(spec: LabSpec, models: Models, state: Uint8Array
     },
     slow: (speed) => toolbar.showSlow(speed),
     failed: events.failed,
+    resetting: () => viewport.grab(null),
   });
   const move = (label: string, value: ControlValue | null): Promise<void> => {
     const done = value === null ? player.press(label) : player.set(label, value);
@@ -183,6 +187,10 @@ export async function openPanel(spec: LabSpec, models: Models, state: Uint8Array
     buttons: controls.buttons, readouts: readouts.element, plots: plots.map((plot) => plot.element), note, spoken: [spoken.log, spoken.region],
     findings: opened.findings,
   });
+  // A reader who has left the lab holds no body: Tab moves from the picture to the buttons of the lab, and the body stays held.
+  element.addEventListener("focusout", ({ relatedTarget }) => {
+    if (!(relatedTarget instanceof Node && element.contains(relatedTarget))) viewport.grab(null);
+  });
   for (const plot of plots) plot.add(opened.frame.rows, opened.shown.length + 1);
   void allTextures(opened.textures, viewport.textures, models).then((textures) => {
     if (textures !== null) viewport.setTextures(textures);
@@ -204,6 +212,7 @@ export async function openPanel(spec: LabSpec, models: Models, state: Uint8Array
       for (const plot of plots) plot.restyle();
       if (atStart) show();
     },
+    release: () => viewport.grab(null),
     dispose() {
       forgetPaced(show);
       player.close();

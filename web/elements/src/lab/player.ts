@@ -30,6 +30,8 @@ export interface PlayerEvents {
   /** The actual speed, if it is lower than the requested one; otherwise `null`. */
   slow(speed: number | null): void;
   failed(e: unknown): void;
+  /** The lab is about to go back to its start. */
+  resetting(): void;
 }
 
 /** The maximum time between two frames for which the lab catches up, s. */
@@ -113,7 +115,10 @@ export function createPlayer(remote: RemoteLab, events: PlayerEvents): Player {
     },
     advance: (seconds) => ask(remote.ask("advance", seconds, Infinity)),
     step: (steps) => ask(remote.ask("step", steps)),
-    reset: () => ask(remote.ask("reset")),
+    reset() {
+      events.resetting();
+      return ask(remote.ask("reset"));
+    },
     set(label, value) {
       const before = moving.get(label);
       if (before !== undefined) {

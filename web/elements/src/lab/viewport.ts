@@ -190,6 +190,10 @@ function listen(element: HTMLElement, canvas: HTMLCanvasElement, view: View, ope
   canvas.addEventListener("pointerdown", (event) => {
     const at = place(event);
     moved = 0;
+    // A second pointer pinches the picture: the first one drags no body then.
+    if (mode === "drag") release(view, state, actions);
+    // The ends of earlier pointers may have been lost, for example when the lab was moved in its page.
+    if (event.isPrimary) pointers.clear();
     if (event.pointerType === "touch" && !state.isActive) {
       mode = "none";
       return void pointers.set(event.pointerId, at);
@@ -219,7 +223,9 @@ function listen(element: HTMLElement, canvas: HTMLCanvasElement, view: View, ope
       pinchCamera(view, [...pointers.values()], before, at);
       return view.draw();
     }
-    if (mode === "drag" && state.held !== null) {
+    if (mode === "drag") {
+      // The body may have been released by a reset.
+      if (state.held === null) return;
       state.target = view.unproject(at.x, at.y, state.target);
       state.held = { ...state.held, target: state.target };
       actions.drag(state.held);
@@ -233,12 +239,11 @@ function listen(element: HTMLElement, canvas: HTMLCanvasElement, view: View, ope
       element.focus({ preventScroll: true });
       activate(true);
     }
-    pointers.delete(event.pointerId);
+    if (!pointers.delete(event.pointerId)) return;
     if (mode === "drag") release(view, state, actions);
     if (pointers.size === 0) mode = "none";
   };
-  canvas.addEventListener("pointerup", end);
-  canvas.addEventListener("pointercancel", end);
+  for (const type of ["pointerup", "pointercancel", "lostpointercapture"] as const) canvas.addEventListener(type, end);
   element.addEventListener("wheel", (event) => {
     // A page that is scrolled is not held up: the picture zooms when it has the focus, or with Ctrl.
     if (element.getRootNode() instanceof ShadowRoot && (element.getRootNode() as ShadowRoot).activeElement !== element && !event.ctrlKey) return;
