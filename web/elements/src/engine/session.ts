@@ -7,6 +7,8 @@ import { readSceneFrame, readSceneModel, sceneModelChanged, writtenSceneFields }
 
 /** The number of steps during which the force of a drag is constant. */
 const PIECE = 8;
+/** The part of a step that rounding may take from a time that is a whole number of steps. */
+const ROUNDING = 1e-9;
 const NO_FORCE = [0, 0, 0, 0, 0, 0];
 
 export interface Session {
@@ -24,7 +26,7 @@ export interface Session {
   drag: Drag | null;
   /** What programs have asked of the page since the last frame. */
   playback: Playback | null;
-  /** The requested time that is shorter than a step, s. */
+  /** The requested time that no step has used yet, shorter than a step, s. */
   carry: number;
 }
 
@@ -63,21 +65,47 @@ export function describeOpened(id: number, session: Session): Opened {
 export function advance(session: Session, seconds: number, budget: number): Frame {
   const { lab } = session;
   const deadline = performance.now() + budget;
-  let left = session.carry + seconds;
-  outer: while (!lab.isOver && left >= lab.timestep) {
+  const time = createBudget(session.carry + seconds);
+  outer: while (!lab.isOver && time.allows(lab.timestep)) {
     pull(session);
-    for (let i = 0; i < PIECE && left >= lab.timestep; i++) {
-      left -= lab.timestep;
+    for (let i = 0; i < PIECE && time.allows(lab.timestep); i++) {
+      time.use(lab.timestep);
       const isRestarted = stepOnce(session);
       // A program that pauses the page pauses it at this step.
       const isPaused = session.playback === "pause" || session.playback === "toggle";
-      if (isPaused) left = 0;
+      if (isPaused) time.end();
       if (lab.isOver || isRestarted || isPaused || performance.now() >= deadline) break outer;
     }
   }
-  const behind = lab.isOver ? 0 : Math.max(0, left - lab.timestep);
-  session.carry = lab.isOver ? 0 : Math.min(left, lab.timestep);
-  return takeFrame(session, behind);
+  const left = lab.isOver ? 0 : time.left();
+  session.carry = Math.min(left, lab.timestep);
+  return takeFrame(session, Math.max(0, left - lab.timestep));
+}
+
+/** Simulated time that steps use up. */
+export interface Budget {
+  left(): number;
+  /** Whether a step fits. */
+  allows(timestep: number): boolean;
+  use(timestep: number): void;
+  end(): void;
+}
+
+/** A budget of some seconds. Steps of the same length are counted, so that their rounding does not add up. */
+export function createBudget(seconds: number): Budget {
+  let [asked, length, count] = [seconds, 0, 0];
+  const left = (): number => asked - count * length;
+  return {
+    left,
+    allows: (timestep) => left() >= timestep * (1 - ROUNDING),
+    use(timestep) {
+      if (timestep !== length) [asked, length, count] = [left(), timestep, 0];
+      count++;
+    },
+    end() {
+      [asked, count] = [0, 0];
+    },
+  };
 }
 
 /** Makes a number of steps. */
@@ -94,7 +122,7 @@ export function stepSession(session: Session, steps: number): Frame {
 export function actOn(session: Session, what: (lab: Lab) => void): Frame {
   const before = session.lab.time;
   what(session.lab);
-  if (session.lab.time < before) session.rows = [];
+  if (session.lab.time < before) [session.rows, session.carry] = [[], 0];
   sample(session);
   notePlayback(session);
   return takeFrame(session, 0);

@@ -150,7 +150,7 @@ export async function openPanel(spec: LabSpec, models: Models, state: Uint8Array
     : createReadouts(opened.shown, say("readouts"));
   const describe = (): string => {
     const traces = plots.flatMap((plot) => plot.describe());
-    return [say("paused", { time: formatTime(frame.time) }), readouts.describe(), ...traces].filter((text) => text !== "").join(" ");
+    return [say("paused", { time: formatTime(frame.time) }), readouts.describe(frame.texts), ...traces].filter((text) => text !== "").join(" ");
   };
   const save = (): Promise<Uint8Array> => remote.ask("save");
   const toolbar = createToolbar(
