@@ -97,7 +97,7 @@ export async function openPanel(spec: LabSpec, models: Models, state: Uint8Array
     obey(next.playback);
     for (const plot of plots) plot.add(next.rows, opened.shown.length + 1);
     const sentences = spoken.report(next.events);
-    next.events.forEach((event, i) => events.event(event, sentences[i] ?? sentences[0] ?? ""));
+    next.events.forEach((event, i) => events.event(event, sentences[i] ?? ""));
     showPaced(show);
   };
   /** Obeys a request of a program. */
