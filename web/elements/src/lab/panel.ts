@@ -86,8 +86,9 @@ export async function openPanel(spec: LabSpec, models: Models, state: Uint8Array
     controls.show(frame.values, player.isMoving);
   };
   const take = (next: Frame): void => {
-    if (next.time < frame.time) {
+    if (next.isRestarted) {
       spoken.clear();
+      for (const plot of plots) plot.clear();
       viewport.clearTrail();
       viewport.grab(null);
     }
