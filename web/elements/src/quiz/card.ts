@@ -19,6 +19,8 @@ export interface CardContext {
   readonly name: string;
   readonly say: Say;
   readonly stored: Stored | null;
+  /** Stores an answer whose verdict is not shown yet. It does not count. */
+  committed(answer: Stored): void;
   /** Stores an answer and reports it to the page. */
   answered(answer: Stored): void;
 }
