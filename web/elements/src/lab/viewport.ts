@@ -41,6 +41,12 @@ export interface ViewportActions {
   released(): void;
 }
 
+/** The name of a body for readers. */
+export function bodyName({ bodies }: Opened, body: number, say: Say): string {
+  const name = bodies[body] ?? "";
+  return name === "" ? say("bodyNumber", { number: body }) : name.replaceAll("_", " ");
+}
+
 /** Pixels that a pointer may move in a tap. */
 const TAP = 8;
 const TURN = 0.4;
@@ -124,7 +130,7 @@ export function createViewport(opened: Opened, spec: LabSpec, say: Say, actions:
       state.held = { ...held, target: state.target };
       actions.drag(state.held);
       view.setDrag({ from: state.target, to: state.target });
-      const name = opened.bodies[body] ?? "";
+      const name = bodyName(opened, body, say);
       actions.say(`${say("grabbed", { body: name })} ${say("dragHelp", { body: name })}`);
       element.focus();
     },
@@ -253,11 +259,12 @@ function listen(element: HTMLElement, canvas: HTMLCanvasElement, view: View, ope
   }, { passive: false });
   element.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
-    const used = state.held === null ? moveCameraByKey(view, event, state.home) : dragByKey(view, event, state, opened.model.extent, actions);
+    const { held } = state;
+    const used = held === null ? moveCameraByKey(view, event, state.home) : dragByKey(view, event, state, opened.model.extent, actions);
     if (!used) return;
     event.preventDefault();
     event.stopPropagation();
-    if (event.key === "Escape") actions.say(say("released", { body: "" }).trim());
+    if (held !== null && state.held === null) actions.say(say("released", { body: bodyName(opened, held.body, say) }));
     view.draw();
   });
 }

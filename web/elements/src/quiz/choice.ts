@@ -5,7 +5,7 @@ import { SimLab } from "../lab/element.js";
 import { numberOf, type Json } from "../spec.js";
 import { safeHtml } from "../text/sanitize.js";
 import { compareWithLab } from "./evidence.js";
-import { createCard, showRemark, showVerdict, type Card, type CardContext } from "./card.js";
+import { createCard, keepFocus, showRemark, showVerdict, type Card, type CardContext } from "./card.js";
 import { isRightChoice, isRightOption } from "./grade.js";
 import type { ChoiceQuestion } from "./read.js";
 import type { Stored } from "./store.js";
@@ -74,18 +74,22 @@ export function createChoice(question: ChoiceQuestion, context: CardContext, mod
       mark(choice);
       return showVerdict(verdict, false, say("wrong"), null, [h("p", {}, say("attempts", { number: tries, count: question.attempts }))]);
     }
-    lock();
-    conclude(choice);
+    keepFocus(parts, () => {
+      lock();
+      conclude(choice);
+    });
   });
   /** Commits a prediction. It counts when the lab has run: until then, the score would give its verdict away. */
   const predict = (choice: readonly number[], sim: Json): void => {
     isDone = true;
     context.committed(stored(choice));
-    lock();
-    watchLab(sim, models, parts, context, (lab) => {
-      isRight = isRightChoice(question, choice);
-      context.answered(stored(choice));
-      conclude(choice, lab);
+    keepFocus(parts, () => {
+      lock();
+      watchLab(sim, models, parts, context, (lab) => {
+        isRight = isRightChoice(question, choice);
+        context.answered(stored(choice));
+        keepFocus(parts, () => conclude(choice, lab));
+      });
     });
   };
   for (const input of inputs) {

@@ -23,6 +23,8 @@ export class LessonQuiz extends HTMLElement {
   #quiz: object | string | null = null;
   #models: Models | null = null;
   #turn = 0;
+  /** Whether the reader has cleared the answers: the first question has the focus then. */
+  #isCleared = false;
 
   /** The quiz as an object or as JSON. */
   get quiz(): object | string | null { return this.#quiz; }
@@ -65,7 +67,10 @@ export class LessonQuiz extends HTMLElement {
     } catch (e) {
       shown = errorPanel(say("quizBroken"), [e instanceof Error ? e.message : String(e)], null);
     }
-    if (turn === this.#turn) root.replaceChildren(shown);
+    if (turn !== this.#turn) return;
+    root.replaceChildren(shown);
+    if (this.#isCleared) root.querySelector<HTMLElement>(".question :is(input, textarea)")?.focus();
+    this.#isCleared = false;
   }
 
   /** Builds the questions. Once the quiz `isOld`, for example cleared, its questions report nothing more. */
@@ -107,6 +112,7 @@ export class LessonQuiz extends HTMLElement {
     clear.addEventListener("click", () => {
       spec.questions.forEach((_, index) => grading.store(index, null));
       grading.report({ right: 0, count: countRight(cards).count }, null);
+      this.#isCleared = true;
       this.#reopen();
     });
     const broken = (why: string, i: number): HTMLElement => errorPanel(say("quizBroken"), [say("badQuestion", { number: i + 1, why })], null);

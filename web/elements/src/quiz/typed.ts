@@ -1,13 +1,14 @@
 /** Questions that are answered in writing: a number, a text, a program. */
 import { h, uniqueId } from "../dom.js";
 import { formatBrief, parseTyped } from "../text/numbers.js";
-import { createCard, showRemark, showVerdict, type Card, type CardContext } from "./card.js";
+import { createCard, keepFocus, showRemark, showVerdict, type Card, type CardContext } from "./card.js";
 import { isRightNumber } from "./grade.js";
 import type { NumericQuestion, OpenQuestion } from "./read.js";
 
 export function createNumeric(question: NumericQuestion, context: CardContext): Card {
   const { say } = context;
-  const { element, form, verdict, promptId } = createCard(context, question.label, question.q);
+  const parts = createCard(context, question.label, question.q);
+  const { element, form, verdict, promptId } = parts;
   const id = uniqueId();
   const input = h("input", { id, type: "text", inputmode: "decimal", autocomplete: "off", size: 10, "aria-describedby": promptId, part: "input" });
   const submit = h("button", { type: "submit", class: "primary" }, say("check"));
@@ -38,7 +39,7 @@ export function createNumeric(question: NumericQuestion, context: CardContext): 
     isRight = isRightNumber(question, value);
     isDone = isRight || tries >= question.attempts;
     context.answered({ choice: [], text: input.value, tries, isRight, isDone });
-    conclude();
+    keepFocus(parts, conclude);
   });
   const { stored } = context;
   const before = stored === null ? null : parseTyped(stored.text, question.unit);

@@ -5,19 +5,23 @@ import { chromiumOnly, labOf, launch, newContext, opened, pageOf, serve, watchEr
 
 const box = "<mujoco><worldbody><light pos='0 0 3'/><geom type='plane' size='2 2 1'/><body name='big_box' pos='0 0 .4'><freejoint/><geom type='box' size='.4 .4 .4'/></body></worldbody></mujoco>";
 const lab = { title: "A box", model: "box", camera: { distance: 3, target: [0, 0, 0.5] } };
-const server = await serve({ "/box.html": pageOf(`${labOf(lab, { models: { box } })}<button type="button" id="outside">Outside</button>`) });
+const two = "<mujoco><worldbody><body name='a_b' pos='0 0 1'><freejoint/><geom size='.1'/></body><body pos='1 0 1'><freejoint/><geom size='.1'/></body></worldbody></mujoco>";
+const server = await serve({
+  "/box.html": pageOf(`${labOf(lab, { models: { box } })}<button type="button" id="outside">Outside</button>`),
+  "/two.html": pageOf(labOf({ model: "two" }, { models: { two } })),
+});
 const browser = await launch();
 after(async () => {
   await browser.close();
   server.close();
 });
 
-async function open(t, options = {}) {
+async function open(t, options = {}, path = "/box.html") {
   const context = await newContext(browser, options);
   t.after(() => context.close());
   const page = await context.newPage();
   const errors = watchErrors(page);
-  await page.goto(`${server.url}/box.html`);
+  await page.goto(server.url + path);
   await opened(page);
   // The body is picked in the first picture.
   await page.waitForTimeout(1000);
@@ -81,5 +85,34 @@ test("a pinch that begins on a body lets go of it", chromiumOnly("the protocol o
   await touch("touchEnd", []);
   await page.evaluate(() => document.querySelector("sim-lab").step(20));
   assert.equal(await isHeld(page), false);
+  errors.none();
+});
+
+test("a body is chosen by arrow keys and taken by Enter; what is said names it", async (t) => {
+  const { page, errors } = await open(t, {}, "/two.html");
+  const state = () => page.evaluate(() => {
+    const { activeElement } = document.querySelector("sim-lab").shadowRoot;
+    return `${activeElement?.className}: ${document.querySelector("sim-lab").shadowRoot.querySelector("select.drag").selectedOptions[0].textContent}`;
+  });
+  const says = (text) => page.waitForFunction((t) => document.querySelector("sim-lab").shadowRoot.querySelector("[part=status]").textContent.startsWith(t), text);
+  await page.locator(".menu summary").click();
+  await page.getByRole("combobox", { name: "Drag a body" }).focus();
+  await page.keyboard.press("ArrowDown");
+  assert.equal(await state(), "drag: a b");
+  assert.equal(await isHeld(page), false);
+  await page.keyboard.press("ArrowDown");
+  assert.equal(await state(), "drag: Body 2");
+  await page.keyboard.press("Enter");
+  assert.match(await state(), /^view.*: Body 2$/);
+  await says("Body 2 is held.");
+  await page.keyboard.press("Escape");
+  await says("Body 2 is let go.");
+  assert.match(await state(), /^view.*: No body$/);
+  // What was only looked at is not taken.
+  await page.locator(".menu summary").click();
+  await page.getByRole("combobox", { name: "Drag a body" }).focus();
+  await page.keyboard.press("ArrowDown");
+  await page.keyboard.press("Tab");
+  assert.match(await state(), /: No body$/);
   errors.none();
 });

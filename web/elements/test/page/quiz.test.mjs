@@ -226,3 +226,29 @@ test("marks: none on an option that may be right, and none after another choice"
   assert.deepEqual(await marks(2), ["0", "0", "right1"]);
   errors.none();
 });
+
+test("the focus stays in the quiz when a control of it goes", async (t) => {
+  const { page, errors, question } = await open(t);
+  const focus = () => page.evaluate(() => {
+    const { activeElement } = document.querySelector("lesson-quiz").shadowRoot;
+    return activeElement === null ? "nothing" : activeElement.matches("input") ? `input ${activeElement.type}` : activeElement.className;
+  });
+  await question(0).getByRole("radio", { name: "cork" }).check();
+  await question(0).getByRole("button", { name: "Check" }).press("Enter");
+  assert.equal(await focus(), "verdict-area");
+  for (const text of ["1", "2"]) {
+    await question(3).getByRole("textbox").fill(text);
+    await question(3).getByRole("textbox").press("Enter");
+    assert.equal(await focus(), text === "1" ? "input text" : "verdict-area", "a further try keeps the focus on the input");
+  }
+  await question(5).getByRole("radio", { name: "On the floor" }).check();
+  await question(5).getByRole("button", { name: "Commit" }).press("Enter");
+  assert.equal(await focus(), "verdict-area");
+  await question(5).getByRole("button", { name: "Show the verdict" }).press("Enter");
+  await question(5).locator(".badge").waitFor();
+  assert.equal(await focus(), "verdict-area");
+  await page.getByRole("button", { name: "Clear my answers" }).press("Enter");
+  await page.waitForFunction(() => document.querySelector("lesson-quiz").shadowRoot.querySelector(".badge") === null);
+  assert.equal(await focus(), "input radio");
+  errors.none();
+});
