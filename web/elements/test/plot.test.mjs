@@ -69,6 +69,12 @@ test("a trace in words", () => {
   const series = createSeries(1);
   fill(series, 201, (t) => t * (2 - t));
   assert.equal(describeTrace(series, 0, "height (m)", say), "height (m) goes from 0 to 0, highest 1 at 1.000 s.");
+  const high = createSeries(1);
+  fill(high, 101, (t) => 1000 + t);
+  assert.equal(describeTrace(high, 0, "x", say), "x rises from 1000 to 1001.");
+  fill(high, 51, (t) => 1000 + t);
+  assert.equal(describeTrace(high, 0, "x", say), "x rises from 1000 to 1000.5.");
+  assert.equal(new Set(tableRows(high).map((row) => row[1])).size, 51);
   const flat = createSeries(1);
   fill(flat, 5, () => 2);
   assert.equal(describeTrace(flat, 0, "x", say), "x stays at 2.");

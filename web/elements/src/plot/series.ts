@@ -97,6 +97,15 @@ export function extremes(series: Series, trace: number, from: number, to: number
   return { min, minTime: series.times[minAt] ?? 0, max, maxTime: series.times[maxAt] ?? 0 };
 }
 
+/** The difference of values that a text about a trace must show: a hundredth of their range. */
+export function resolutionOf(series: Series, trace: number): number {
+  const found = extremes(series, trace, 0, series.length);
+  if (found === null) return Infinity;
+  const range = found.max - found.min;
+  // A range of this size is rounding.
+  return range > 1e-9 * Math.abs(found.max) ? range / 100 : Infinity;
+}
+
 /** All samples as comma-separated values: numbers in full. */
 export function toCsv(series: Series, labels: readonly string[], timeLabel: string): string {
   const quote = (text: string): string => {

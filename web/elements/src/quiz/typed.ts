@@ -21,7 +21,7 @@ export function createNumeric(question: NumericQuestion, context: CardContext): 
       input.disabled = true;
       submit.hidden = true;
     }
-    const answer = `${formatBrief(question.answer)}${question.unit === "" ? "" : ` ${question.unit}`}`;
+    const answer = `${formatBrief(question.answer, question.tol)}${question.unit === "" ? "" : ` ${question.unit}`}`;
     const remark = isRight === true ? null : h("p", {}, isDone ? say("correctAnswer", { answer }) : `${attemptText()} ${say("tryAgain")}.`);
     showVerdict(verdict, isRight, say(isRight === true ? "correct" : "wrong"), isDone ? question.explain : null, [remark]);
   };

@@ -9,19 +9,36 @@ export function formatNumber(x: number, digits: number): string {
   return x.toFixed(Math.max(0, Math.min(20, Math.round(digits))));
 }
 
-/** A number for a tick or a table: as many decimals as its distance to the next one needs. */
+/** The most digits after the point of a mantissa on an axis; a number that needs more is printed in full. */
+const MOST_MANTISSA = 6;
+/** Digits of a double that are exact. */
+const EXACT = 15;
+
+/** The power of ten of the first digit. */
+const power = (x: number): number => Math.floor(Math.log10(Math.abs(x)) + 1e-9);
+
+/** A number for a tick: as many digits as its distance to the next one needs. */
 export function formatTick(x: number, spacing: number): string {
-  if (Math.abs(x) >= 1e6 || (x !== 0 && spacing < 1e-5)) return x.toExponential(1);
-  const digits = Math.max(0, Math.min(8, -Math.floor(Math.log10(spacing) + 1e-9)));
-  const text = x.toFixed(digits);
+  const last = power(spacing);
+  const isExtreme = Math.abs(x) >= 1e6 || spacing < 1e-5;
+  if (isExtreme && x === 0) return "0";
+  const mantissa = isExtreme ? Math.max(1, power(x) - last) : Infinity;
+  if (mantissa <= MOST_MANTISSA) return x.toExponential(mantissa).replace(/^-/, "−");
+  const text = x.toFixed(Math.max(0, Math.min(EXACT, -last)));
   return Number(text) === 0 ? text.replace("-", "") : text.replace("-", "−");
 }
 
-/** Three significant digits, for sentences. */
-export function formatBrief(x: number): string {
+/** A number for sentences: three significant digits, and more where a difference of `resolution` or of 1 would be lost. */
+export function formatBrief(x: number, resolution = Infinity): string {
   if (!Number.isFinite(x)) return formatNumber(x, 3);
-  if (x !== 0 && (Math.abs(x) < 1e-3 || Math.abs(x) >= 1e5)) return x.toExponential(2);
-  return String(Number(x.toPrecision(3)));
+  if (x === 0) return "0";
+  const first = power(x);
+  const isExtreme = Math.abs(x) < 1e-3 || Math.abs(x) >= 1e5;
+  // Numbers that are printed with a power of ten lose the ones, unless the resolution needs them.
+  const finest = isExtreme ? resolution : Math.min(1, resolution);
+  const needed = finest > 0 ? first - power(finest) + 1 : EXACT;
+  const digits = Math.max(3, Math.min(EXACT, needed));
+  return isExtreme && !(first > 0 && digits > first) ? x.toExponential(digits - 1) : String(Number(x.toPrecision(digits)));
 }
 
 /** A time for sentences, s. */
