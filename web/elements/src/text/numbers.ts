@@ -46,18 +46,31 @@ export function formatTime(time: number): string {
   return time.toFixed(time >= 100 ? 1 : time >= 10 ? 2 : 3);
 }
 
-/** The number in what somebody typed: a comma is a decimal point, and the unit may follow. `null` for anything else. */
-export function parseTyped(text: string, unit: string): number | null {
-  let rest = text.trim().replace(/[\u2212\u2013]/g, "-").replace(/\u00a0/g, " ");
-  if (unit !== "" && rest.endsWith(unit)) rest = rest.slice(0, -unit.length).trim();
-  if (/^[^.,]*,[^.,]*$/.test(rest)) rest = rest.replace(",", ".");
-  rest = rest.replace(/\s*[×x*]\s*10\s*\^?\s*/i, "e");
-  if (!/^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(rest)) return null;
-  const value = Number(rest);
-  return Number.isFinite(value) ? value : null;
+const RAISED: Readonly<Record<string, string>> = { "0": "⁰", "1": "¹", "2": "²", "3": "³", "4": "⁴", "5": "⁵", "6": "⁶", "7": "⁷", "8": "⁸", "9": "⁹", "-": "⁻" };
+const LOWERED = new Map(Object.entries(RAISED).map(([digit, raised]) => [raised, digit]));
+
+/** A text with plain minus signs and spaces, and with raised digits as powers: `m/s²` is `m/s^2`. */
+function plainText(text: string): string {
+  return text.replace(/[\u2212\u2013]/g, "-").replace(/\s/g, " ").replace(/[⁰¹²³⁴-⁹⁻]+/g, (raised) => `^${[...raised].map((one) => LOWERED.get(one) ?? one).join("")}`);
 }
 
-const RAISED: Readonly<Record<string, string>> = { "0": "⁰", "1": "¹", "2": "²", "3": "³", "4": "⁴", "5": "⁵", "6": "⁶", "7": "⁷", "8": "⁸", "9": "⁹", "-": "⁻" };
+/** A unit in one spelling: products with a point, no spaces, the Greek letter for micro. */
+function plainUnit(unit: string): string {
+  return plainText(unit).trim().replace(/\*\*/g, "^").replace(/ *([/^]) */g, "$1").replace(/ *[·⋅∙*] *| +/g, "·").replaceAll("\u00b5", "\u03bc");
+}
+
+/** A mantissa, a power of ten (`e3`, `·10^3`, `×10**3`), and what follows. */
+const TYPED = /^([+-]? ?(?:\d+[.,]?\d*|[.,]\d+))(?:e([+-]?\d+)| *[×x*·⋅∙] *10 *(?:\^|\*\*)? *([+-]?\d+))?(.*)$/i;
+
+/** The number in what somebody typed: a comma is a decimal point, and the unit may follow. `null` for anything else. */
+export function parseTyped(text: string, unit: string): number | null {
+  const found = TYPED.exec(plainText(text).trim());
+  if (found === null) return null;
+  const [, mantissa = "", e = "", power = e, rest = ""] = found;
+  if (rest.trim() !== "" && plainUnit(rest) !== plainUnit(unit)) return null;
+  const value = Number(`${mantissa.replace(",", ".").replace(" ", "")}e${power === "" ? "0" : power}`);
+  return Number.isFinite(value) ? value : null;
+}
 
 /** A unit for readers: `m/s^2` with its exponent raised. */
 export function formatUnit(unit: string): string {

@@ -23,6 +23,7 @@ const slow = {
     { kind: "predict", q: "Up or down?", options: ["up", "down"], answer: 1, explain: "<p>Down.</p>", sim: { model: "drop", stopAt: 1.5, readouts: [{ label: "z", expr: "data.qpos[2]" }] } },
     { kind: "multiple", q: "Which of these?", options: ["a", "b", "c"], hash: { salt: "s", sha256: createHash("sha256").update("s:0,2").digest("hex") } },
     { q: "Which one?", options: ["a", "b", "c"], answer: 2, attempts: 3 },
+    { kind: "numeric", q: "How fast does it get faster?", answer: 1998, tol: 1, unit: "m/s^2", attempts: 1 },
   ],
 };
 const server = await serve({
@@ -172,7 +173,7 @@ test("a prediction counts when its verdict is shown, and not before", async (t) 
   assert.ok(await predict.getByRole("radio", { name: "up" }).isDisabled());
   assert.equal(await page.locator(".score").innerText(), "");
   await predict.locator(".badge").waitFor();
-  assert.match(await page.locator(".score").innerText(), /1 of 3 correct/);
+  assert.match(await page.locator(".score").innerText(), /1 of 4 correct/);
   assert.deepEqual((await page.evaluate(() => globalThis.answers)).map(({ index, correct }) => [index, correct]), [[0, true]]);
   await page.reload();
   await predict.locator(".badge").waitFor();
@@ -250,5 +251,14 @@ test("the focus stays in the quiz when a control of it goes", async (t) => {
   await page.getByRole("button", { name: "Clear my answers" }).press("Enter");
   await page.waitForFunction(() => document.querySelector("lesson-quiz").shadowRoot.querySelector(".badge") === null);
   assert.equal(await focus(), "input radio");
+  errors.none();
+});
+
+test("a number is shown with its digits and its unit as people write it", async (t) => {
+  const { errors, question } = await open(t, {}, "/slow.html");
+  assert.equal(await question(3).locator(".unit").innerText(), "m/s²");
+  await question(3).getByRole("textbox", { name: "in m/s²" }).fill("2,0·10³ m/s²");
+  await question(3).getByRole("button", { name: "Check" }).click();
+  assert.match(await question(3).locator(".verdict").innerText(), /Correct answer: 1998 m\/s²/);
   errors.none();
 });
