@@ -25,7 +25,7 @@ export interface Plot {
 
 /** A plot whose traces are the `columns` of a row, counted after the time. */
 export function createPlot(spec: PlotSpec, columns: readonly number[], title: string, say: Say): Plot {
-  const series = createSeries(columns.length);
+  const series = createSeries(columns.length, spec.window);
   const labels = columns.map((_, i) => spec.traces[i]?.label ?? "");
   const timeLabel = spec.xlabel ?? say("time");
   const canvas = h("canvas", { part: "plot-canvas" });
