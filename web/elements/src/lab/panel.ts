@@ -153,7 +153,7 @@ export async function openPanel(spec: LabSpec, models: Models, state: Uint8Array
     const traces = plots.flatMap((plot) => plot.describe());
     return [say("paused", { time: formatTime(frame.time) }), readouts.describe(frame.texts), ...traces].filter((text) => text !== "").join(" ");
   };
-  const save = (): Promise<Uint8Array> => remote.ask("save");
+  const save = (): Promise<Uint8Array> => player.save();
   const toolbar = createToolbar(
     { speeds: spec.speeds, timestep: opened.timestep, hasLargeSteps: wantsNoMotion, hasPicture: viewport.isDrawn, first: viewBar.bodies }, say, {
       toggle: () => (player.isPlaying ? player.pause() : player.play()),
