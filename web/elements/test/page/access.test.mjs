@@ -14,6 +14,14 @@ const server = await serve({
   "/arabic.html": pageOf(body, { head: `${head}<script>document.documentElement.dir = "rtl"</script>`, lang: "ar" }),
   "/autoplay.html": pageOf(labOf({ ...dropLab, autoplay: true }, { models: { drop } })),
 });
+const word = "Donaudampfschifffahrtsgesellschaftskapitänsmützenabzeichen_und_noch_viel_länger";
+const trace = { label: "t", expr: "data.time" };
+const wide = {
+  button: { controls: [{ type: "button", label: word, run: "ctx.x = 1" }] }, title: { title: word, kind: word }, note: { note: word },
+  "title of a plot": { plots: [{ ylabel: word, traces: [trace] }] }, "axis of a plot": { plots: [{ xlabel: word, ylabel: "y", traces: [trace] }] },
+  trace: { plots: [{ ylabel: "y", traces: [{ ...trace, label: word }] }] },
+};
+for (const [name, parts] of Object.entries(wide)) server.pages[`/${name}.html`] = pageOf(labOf({ model: "drop", height: 100, ...parts }, { models: { drop } }));
 const browser = await launch();
 const axe = readFileSync(join(root, "../node_modules/axe-core/axe.min.js"), "utf8");
 after(async () => {
@@ -193,4 +201,15 @@ test("touch: the page scrolls until the picture is tapped", chromiumOnly("Playwr
   await page.locator("h1").tap();
   await page.locator(".plot-stage").tap();
   errors.none();
+});
+
+test("a long word does not make a small page scroll sideways", async (t) => {
+  for (const name of Object.keys(wide)) {
+    const { page, errors } = await open(t, `/${name}.html`, { viewport: { width: 320, height: 700 } });
+    await page.locator("sim-lab details.plot-data").evaluateAll((all) => all.forEach((details) => {
+      details.open = true;
+    }));
+    assert.deepEqual(await page.evaluate(() => [document.scrollingElement.scrollWidth, document.scrollingElement.clientWidth]), [320, 320], name);
+    errors.none();
+  }
 });
