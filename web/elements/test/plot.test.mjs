@@ -21,12 +21,41 @@ test("samples are kept in order, and time that goes back clears them", () => {
   assert.deepEqual([series.length, series.values[0][0]], [1, 8]);
 });
 
-test("a long run keeps the last samples", () => {
-  const series = createSeries(1);
-  for (let i = 0; i < 100_000; i++) addRows(series, Float64Array.of(i, i), 2, [0]);
+/** A long run with peaks; `longest` is the longest time between two samples that are kept, by the place of the later one. */
+function longRun(count, window) {
+  const series = createSeries(2, window);
+  const peaks = [1000, 20_001, 40_002, count - 30_000, count - 10];
+  const value = (i) => (peaks.includes(i) ? 9 : Math.sin(i));
+  for (let i = 0; i < count; i++) addRows(series, Float64Array.of(i, value(i), -value(i)), 3, [0, 1]);
   assert.ok(series.length >= 1 << 14 && series.length <= 1 << 15);
-  assert.equal(series.values[0][series.length - 1], 99_999);
-  for (let i = 1; i < series.length; i++) assert.equal(series.times[i] - series.times[i - 1], 1);
+  const times = Array.from(series.times.subarray(0, series.length));
+  assert.deepEqual([times[0], times.at(-1)], [0, count - 1]);
+  times.forEach((time, i) => assert.ok(i === 0 || time > times[i - 1]));
+  times.forEach((time, i) => assert.deepEqual([series.values[0][i], series.values[1][i]], [value(time), -value(time)]));
+  assert.deepEqual(times.filter((_, i) => series.values[1][i] === -9), peaks);
+  return (after) => Math.max(...times.slice(1).map((time, i) => (time > after ? time - times[i] : 0)));
+}
+
+test("a long run is thinned out without losing a peak, and evenly", () => {
+  const longest = longRun(400_000, Infinity);
+  assert.equal(longest(390_000), 1);
+  // 2048 parts of 195 s: two samples next to each other are at most two parts apart.
+  assert.ok(longest(0) < 400, `${longest(0)}`);
+});
+
+test("what is in the window of a plot stays dense", () => {
+  assert.equal(longRun(400_000, 5000)(395_000), 1);
+  const longest = longRun(400_000, 40_000);
+  assert.ok(longest(360_000) < 20 && longest(390_000) === 1, `${longest(360_000)}`);
+});
+
+test("a plot begins at its first sample where times are negative", () => {
+  const series = createSeries(1);
+  assert.deepEqual(timeRange(series, 2), { min: 0, max: 2 });
+  addRows(series, Float64Array.of(-1, 5, -0.9, 6), 2, [0]);
+  assert.deepEqual(timeRange(series, 2), { min: -1, max: 1 });
+  addRows(series, Float64Array.of(1.5, 5), 2, [0]);
+  assert.deepEqual(timeRange(series, 2), { min: -0.5, max: 1.5 });
 });
 
 test("ranges hold what is drawn", () => {
@@ -69,6 +98,12 @@ test("a trace in words", () => {
   const series = createSeries(1);
   fill(series, 201, (t) => t * (2 - t));
   assert.equal(describeTrace(series, 0, "height (m)", say), "height (m) goes from 0 to 0, highest 1 at 1.000 s.");
+  const high = createSeries(1);
+  fill(high, 101, (t) => 1000 + t);
+  assert.equal(describeTrace(high, 0, "x", say), "x rises from 1000 to 1001.");
+  fill(high, 51, (t) => 1000 + t);
+  assert.equal(describeTrace(high, 0, "x", say), "x rises from 1000 to 1000.5.");
+  assert.equal(new Set(tableRows(high).map((row) => row[1])).size, 51);
   const flat = createSeries(1);
   fill(flat, 5, () => 2);
   assert.equal(describeTrace(flat, 0, "x", say), "x stays at 2.");

@@ -22,7 +22,7 @@ interface Member {
   isBroken: boolean;
 }
 
-/** What the members are asked to do. `replaces` states that the reader acts on the lab, so that its time may go back. */
+/** What the members are asked to do. `replaces` states that the reader acts on the lab: a reset heals a broken one. */
 interface Request {
   readonly ask: (member: Member) => Promise<Frame> | null;
   readonly replaces: boolean;
@@ -43,12 +43,13 @@ export async function openCompared(labs: readonly ComparedLab[], control: string
   let viewed = first;
 
   const take = (member: Member, frame: Frame, replaces: boolean): void => {
-    member.isBroken = replaces ? member.isBroken && frame.time > 0 : member.isBroken || frame.time < member.frame.time || frame.events.some(({ type }) => type === "restart");
+    const isHealed = replaces && frame.isRestarted;
+    member.isBroken = (member.isBroken && !isHealed) || frame.events.some(({ type }) => type === "restart");
     member.frame = frame;
     if (frame.model !== undefined) member.model = frame.model;
     pushRows(member.queue, frame.rows, shown.length + 1);
   };
-  const joined = (events: readonly EngineEvent[], behind: number, hasModel: boolean): Frame => {
+  const joined = (events: readonly EngineEvent[], behind: number, hasModel: boolean, isRestarted: boolean): Frame => {
     const running = members.filter(({ isBroken }) => !isBroken);
     const queues = members.map(({ isBroken, queue }) => (isBroken ? null : queue));
     const numbers = shown.flatMap((_, i) => members.map(({ frame, isBroken }) => (isBroken ? NaN : (frame.numbers[i] ?? NaN))));
@@ -57,7 +58,7 @@ export async function openCompared(labs: readonly ComparedLab[], control: string
     return {
       time: Math.min(...(running.length > 0 ? running : members).map(({ frame }) => frame.time)),
       numbers: Float64Array.from(numbers), texts: readouts.flat(), rows: mergeRows(queues, shown.length + 1),
-      scene: viewed.frame.scene, ...(hasModel ? { model: viewed.model } : {}), events,
+      scene: viewed.frame.scene, ...(hasModel ? { model: viewed.model } : {}), events, isRestarted,
       isOver: running.every(({ frame }) => frame.isOver), values,
       playback: members.map(({ frame }) => frame.playback).find((playback) => playback !== null) ?? null, behind,
     };
@@ -68,7 +69,8 @@ export async function openCompared(labs: readonly ComparedLab[], control: string
     for (const [member, frame] of made) take(member, frame, replaces);
     const events = made.flatMap(([member, frame]) => frame.events.filter((event) => member === viewed || event.type === "restart" || event.type === "finding"));
     const hasModel = made.some(([member, frame]) => member === viewed && frame.model !== undefined);
-    return joined(withoutRepeats(events), Math.max(0, ...made.map(([, frame]) => frame.behind)), hasModel);
+    const isRestarted = made.some(([member, frame]) => member === viewed && !member.isBroken && frame.isRestarted);
+    return joined(withoutRepeats(events), Math.max(0, ...made.map(([, frame]) => frame.behind)), hasModel, isRestarted);
   };
   /** Advances all to the same time: those that were slower in the last frame catch up before the others go on. */
   const advance = (seconds: number, budget: number): Promise<Frame> => {
@@ -89,7 +91,7 @@ export async function openCompared(labs: readonly ComparedLab[], control: string
     set: (label, value) => {
       if (label !== control) return askAll({ ask: ({ remote }) => remote.ask("set", label, value), replaces: true });
       viewed = members.find(({ name }) => name === value) ?? viewed;
-      return Promise.resolve(joined([], 0, true));
+      return Promise.resolve(joined([], 0, true, false));
     },
     press: (label) => askAll({ ask: ({ remote }) => remote.ask("press", label), replaces: true }),
     drag: (drag) => askAll({ ask: ({ remote }) => remote.ask("drag", drag), replaces: true }),
@@ -102,7 +104,7 @@ export async function openCompared(labs: readonly ComparedLab[], control: string
   for (const member of members) take(member, member.frame, true);
   const opened: Opened = {
     ...first.remote.opened, shown: shown.flatMap((one): Shown[] => members.map(({ name }) => ({ ...one, label: `${one.label}, ${name}` }))),
-    frame: joined(first.frame.events, 0, false),
+    frame: joined(first.frame.events, 0, false, false),
   };
   return { opened, ask: (call, ...args) => calls[call](...args) };
 }

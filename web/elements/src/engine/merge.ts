@@ -53,7 +53,9 @@ function rowAt(rows: readonly Float64Array[], time: number): (i: number) => numb
   const place = rows.findIndex((row) => timeOf(row) >= time);
   const [after, before] = [rows[place], rows[place - 1]];
   if (after === undefined) return () => NaN;
-  if (timeOf(after) === time || before === undefined) return (i) => after[i] ?? NaN;
+  if (timeOf(after) === time) return (i) => after[i] ?? NaN;
+  // A lab that a program has reset later than the others has no row of this time.
+  if (before === undefined) return () => NaN;
   const part = (time - timeOf(before)) / (timeOf(after) - timeOf(before));
   return (i) => (before[i] ?? NaN) + part * ((after[i] ?? NaN) - (before[i] ?? NaN));
 }

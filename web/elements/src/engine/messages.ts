@@ -7,6 +7,7 @@ export type EngineEvent =
   | { readonly type: "contact"; readonly time: number; readonly first: string; readonly second: string; readonly touching: boolean }
   | { readonly type: "finding"; readonly time: number; readonly finding: Finding }
   | { readonly type: "stop"; readonly time: number }
+  /** The engine has reset the data because of a bad number. */
   | { readonly type: "restart"; readonly time: number };
 
 /** The state of a lab after a call. */
@@ -23,6 +24,8 @@ export interface Frame {
   /** The constants of the scene, if a program has changed them. */
   readonly model?: SceneModel;
   readonly events: readonly EngineEvent[];
+  /** Whether the time has gone back since the last frame. */
+  readonly isRestarted: boolean;
   /** Whether the lab does not continue without a reset. */
   readonly isOver: boolean;
   /** The values of the controls, in their order; `null` for buttons. */

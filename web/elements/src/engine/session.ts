@@ -7,6 +7,10 @@ import { readSceneFrame, readSceneModel, sceneModelChanged, writtenSceneFields }
 
 /** The number of steps during which the force of a drag is constant. */
 const PIECE = 8;
+/** The part of a step that rounding may take from a time that is a whole number of steps. */
+const ROUNDING = 1e-9;
+/** Warnings of the engine after which it has reset the data. */
+const BREAKDOWNS: readonly string[] = ["badqpos", "badqvel", "badqacc"];
 const NO_FORCE = [0, 0, 0, 0, 0, 0];
 
 export interface Session {
@@ -22,9 +26,11 @@ export interface Session {
   rows: number[][];
   events: EngineEvent[];
   drag: Drag | null;
+  /** Whether the time has gone back since the last frame. */
+  isRestarted: boolean;
   /** What programs have asked of the page since the last frame. */
   playback: Playback | null;
-  /** The requested time that is shorter than a step, s. */
+  /** The requested time that no step has used yet, shorter than a step, s. */
   carry: number;
 }
 
@@ -34,11 +40,14 @@ export function openSession(json: string, models: Models, state: Uint8Array | nu
   const traces = lab.shown.flatMap((one, i) => (one.plot === undefined ? [] : [i]));
   const session: Session = {
     lab, names: geomNames(lab), controls: lab.controls, traces, written: writtenSceneFields(lab), sent: readSceneModel(lab),
-    reported: lab.findings.length, rows: [], events: [], drag: null, playback: null, carry: 0,
+    reported: lab.findings.length, rows: [], events: [], drag: null, isRestarted: false, playback: null, carry: 0,
   };
   lab.on("contact", ({ time, geom1, geom2, touching }) => {
     const [first, second] = [session.names[geom1] ?? "", session.names[geom2] ?? ""];
     session.events.push({ type: "contact", time, first, second, touching });
+  });
+  lab.on("warning", ({ time, kind }) => {
+    if (BREAKDOWNS.includes(kind)) session.events.push({ type: "restart", time });
   });
   lab.on("end", ({ time }) => session.events.push({ type: "stop", time }));
   sample(session);
@@ -63,21 +72,47 @@ export function describeOpened(id: number, session: Session): Opened {
 export function advance(session: Session, seconds: number, budget: number): Frame {
   const { lab } = session;
   const deadline = performance.now() + budget;
-  let left = session.carry + seconds;
-  outer: while (!lab.isOver && left >= lab.timestep) {
+  const time = createBudget(session.carry + seconds);
+  outer: while (!lab.isOver && time.allows(lab.timestep)) {
     pull(session);
-    for (let i = 0; i < PIECE && left >= lab.timestep; i++) {
-      left -= lab.timestep;
+    for (let i = 0; i < PIECE && time.allows(lab.timestep); i++) {
+      time.use(lab.timestep);
       const isRestarted = stepOnce(session);
       // A program that pauses the page pauses it at this step.
       const isPaused = session.playback === "pause" || session.playback === "toggle";
-      if (isPaused) left = 0;
+      if (isPaused) time.end();
       if (lab.isOver || isRestarted || isPaused || performance.now() >= deadline) break outer;
     }
   }
-  const behind = lab.isOver ? 0 : Math.max(0, left - lab.timestep);
-  session.carry = lab.isOver ? 0 : Math.min(left, lab.timestep);
-  return takeFrame(session, behind);
+  const left = lab.isOver ? 0 : time.left();
+  session.carry = Math.min(left, lab.timestep);
+  return takeFrame(session, Math.max(0, left - lab.timestep));
+}
+
+/** Simulated time that steps use up. */
+export interface Budget {
+  left(): number;
+  /** Whether a step fits. */
+  allows(timestep: number): boolean;
+  use(timestep: number): void;
+  end(): void;
+}
+
+/** A budget of some seconds. Steps of the same length are counted, so that their rounding does not add up. */
+export function createBudget(seconds: number): Budget {
+  let [asked, length, count] = [seconds, 0, 0];
+  const left = (): number => asked - count * length;
+  return {
+    left,
+    allows: (timestep) => left() >= timestep * (1 - ROUNDING),
+    use(timestep) {
+      if (timestep !== length) [asked, length, count] = [left(), timestep, 0];
+      count++;
+    },
+    end() {
+      [asked, count] = [0, 0];
+    },
+  };
 }
 
 /** Makes a number of steps. */
@@ -92,11 +127,7 @@ export function stepSession(session: Session, steps: number): Frame {
 
 /** Changes the lab and samples it. */
 export function actOn(session: Session, what: (lab: Lab) => void): Frame {
-  const before = session.lab.time;
-  what(session.lab);
-  if (session.lab.time < before) session.rows = [];
-  sample(session);
-  notePlayback(session);
+  if (observe(session, what)) session.carry = 0;
   return takeFrame(session, 0);
 }
 
@@ -119,16 +150,17 @@ function pull(session: Session): void {
   if (session.drag !== null) session.lab.applyForce(session.drag.body, springForce(session.lab, session.drag));
 }
 
-/** Makes one step and samples it. Returns whether the engine has reset the data because of a bad number. */
+/** Makes one step. Returns whether the lab was reset: by a program, or by the engine because of a bad number. */
 function stepOnce(session: Session): boolean {
-  const { lab } = session;
-  const before = lab.time;
-  lab.step();
-  const isRestarted = lab.time < before;
-  if (isRestarted) {
-    session.rows = [];
-    session.events.push({ type: "restart", time: before });
-  }
+  return observe(session, (lab) => lab.step());
+}
+
+/** Acts on the lab and samples it. Returns whether the time has gone back: earlier samples are forgotten then. */
+function observe(session: Session, act: (lab: Lab) => void): boolean {
+  const before = session.lab.time;
+  act(session.lab);
+  const isRestarted = session.lab.time < before;
+  if (isRestarted) [session.rows, session.isRestarted] = [[], true];
   sample(session);
   notePlayback(session);
   return isRestarted;
@@ -150,13 +182,13 @@ function takeFrame(session: Session, behind: number): Frame {
   for (const finding of found.slice(session.reported)) events.push({ type: "finding", time: lab.time, finding });
   session.reported = found.length;
   const rows = Float64Array.from(decimate(session.rows, session.traces).flat());
-  const { playback } = session;
-  [session.rows, session.events, session.playback] = [[], [], null];
+  const { playback, isRestarted } = session;
+  [session.rows, session.events, session.playback, session.isRestarted] = [[], [], null, false];
   const changed = session.written.length > 0 && sceneModelChanged(lab, session.sent, session.written);
   if (changed) session.sent = readSceneModel(lab);
   return {
     time: lab.time, numbers: lab.numbers, texts: lab.readoutTexts, rows, scene: readSceneFrame(lab),
-    ...(changed ? { model: session.sent } : {}), events, isOver: lab.isOver,
+    ...(changed ? { model: session.sent } : {}), events, isRestarted, isOver: lab.isOver,
     values: session.controls.map((control) => lab.value(control.label)), playback, behind,
   };
 }

@@ -28,19 +28,24 @@ export function createComparison(names: readonly string[], shown: readonly Shown
   const cells = names.map(() => heads.map(() => h("td", { part: "readout-value" })));
   const rows = names.map((name, k) => h("tr", { part: "readout" }, h("th", { scope: "row" }, name), ...(cells[k] ?? [])));
   const head = h("tr", {}, h("th", { scope: "col" }, say("integrator")), ...heads.map((text) => h("th", { scope: "col" }, text)));
+  /** The cells of each row. */
+  const printed = (texts: readonly string[]): string[][] => names.map((_, k) => {
+    const { last, largest } = driftOf(drift, k);
+    const values = [formatNumber(last, DIGITS), formatNumber(largest, DIGITS), ...labels.map((_label, i) => texts[i * names.length + k] ?? "")];
+    return values.map((value) => value.replace(/^-(?=\d)/, "−"));
+  });
   const table = h("table", { class: "comparison" }, h("caption", { class: "hidden" }, say("readouts")), h("thead", {}, head), h("tbody", {}, ...rows));
   return {
     element: h("div", { class: "readouts compared", part: "readouts", role: "group", tabindex: 0, "aria-label": say("readouts") }, table),
     show(texts) {
-      names.forEach((_, k) => {
-        const { last, largest } = driftOf(drift, k);
-        const values = [formatNumber(last, DIGITS), formatNumber(largest, DIGITS), ...labels.map((_label, i) => texts[i * names.length + k] ?? "")];
-        values.forEach((value, i) => {
-          const cell = cells[k]?.[i];
-          if (cell !== undefined) setText(cell, value.replace(/^-(?=\d)/, "−"));
-        });
-      });
+      printed(texts).forEach((row, k) => row.forEach((value, i) => {
+        const cell = cells[k]?.[i];
+        if (cell !== undefined) setText(cell, value);
+      }));
     },
-    describe: () => names.map((name, k) => `${name}: ${heads.map((text, i) => `${text} ${cells[k]?.[i]?.textContent ?? ""}`).join(", ")}`).join("; "),
+    describe(texts) {
+      const rows = printed(texts);
+      return names.map((name, k) => `${name}: ${heads.map((text, i) => `${text} ${rows[k]?.[i] ?? ""}`).join(", ")}`).join("; ");
+    },
   };
 }

@@ -98,7 +98,7 @@ export class SimLab extends HTMLElement {
     takeOwnProperty(this, "lab");
     if (root.childElementCount === 0) this.#showLoading(root);
     addEventListener("hashchange", this.#onHash);
-    this.#unwatch = watchTheme(() => this.#panel?.restyle());
+    this.#unwatch = watchTheme(this, () => this.#panel?.restyle());
     this.#seen = new IntersectionObserver((entries) => {
       const isSeen = entries[entries.length - 1]?.isIntersecting === true;
       if (isSeen) this.#want();
@@ -116,6 +116,7 @@ export class SimLab extends HTMLElement {
 
   disconnectedCallback(): void {
     removeEventListener("hashchange", this.#onHash);
+    this.#panel?.release();
     this.#seen?.disconnect();
     this.#unwatch?.();
     // An element that is moved in its page is connected again at once.
@@ -167,7 +168,8 @@ export class SimLab extends HTMLElement {
     this.#link = null;
     this.#panel?.dispose();
     this.#panel = null;
-    this.#ready = deferred();
+    // Who waits for a lab that was not open yet waits for the one that is opened next.
+    if (this.#ready.isSettled) this.#ready = deferred();
     if (this.shadowRoot !== null) this.#showLoading(this.shadowRoot);
   }
 

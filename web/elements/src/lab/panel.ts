@@ -57,6 +57,8 @@ export interface Panel {
   /** Announces a text in the live region. */
   say(text: string): void;
   restyle(): void;
+  /** Lets go of the body that the reader holds. */
+  release(): void;
   describe(): string;
   save(): Promise<Uint8Array>;
   dispose(): void;
@@ -84,9 +86,11 @@ export async function openPanel(spec: LabSpec, models: Models, state: Uint8Array
     controls.show(frame.values, player.isMoving);
   };
   const take = (next: Frame): void => {
-    if (next.time < frame.time) {
+    if (next.isRestarted) {
       spoken.clear();
+      for (const plot of plots) plot.clear();
       viewport.clearTrail();
+      viewport.grab(null);
     }
     frame = next;
     atStart = false;
@@ -94,7 +98,7 @@ export async function openPanel(spec: LabSpec, models: Models, state: Uint8Array
     obey(next.playback);
     for (const plot of plots) plot.add(next.rows, opened.shown.length + 1);
     const sentences = spoken.report(next.events);
-    next.events.forEach((event, i) => events.event(event, sentences[i] ?? sentences[0] ?? ""));
+    next.events.forEach((event, i) => events.event(event, sentences[i] ?? ""));
     showPaced(show);
   };
   /** Obeys a request of a program. */
@@ -113,6 +117,7 @@ export async function openPanel(spec: LabSpec, models: Models, state: Uint8Array
     },
     slow: (speed) => toolbar.showSlow(speed),
     failed: events.failed,
+    resetting: () => viewport.grab(null),
   });
   const move = (label: string, value: ControlValue | null): Promise<void> => {
     const done = value === null ? player.press(label) : player.set(label, value);
@@ -146,9 +151,9 @@ export async function openPanel(spec: LabSpec, models: Models, state: Uint8Array
     : createReadouts(opened.shown, say("readouts"));
   const describe = (): string => {
     const traces = plots.flatMap((plot) => plot.describe());
-    return [say("paused", { time: formatTime(frame.time) }), readouts.describe(), ...traces].filter((text) => text !== "").join(" ");
+    return [say("paused", { time: formatTime(frame.time) }), readouts.describe(frame.texts), ...traces].filter((text) => text !== "").join(" ");
   };
-  const save = (): Promise<Uint8Array> => remote.ask("save");
+  const save = (): Promise<Uint8Array> => player.save();
   const toolbar = createToolbar(
     { speeds: spec.speeds, timestep: opened.timestep, hasLargeSteps: wantsNoMotion, hasPicture: viewport.isDrawn, first: viewBar.bodies }, say, {
       toggle: () => (player.isPlaying ? player.pause() : player.play()),
@@ -183,6 +188,10 @@ export async function openPanel(spec: LabSpec, models: Models, state: Uint8Array
     buttons: controls.buttons, readouts: readouts.element, plots: plots.map((plot) => plot.element), note, spoken: [spoken.log, spoken.region],
     findings: opened.findings,
   });
+  // A reader who has left the lab holds no body: Tab moves from the picture to the buttons of the lab, and the body stays held.
+  element.addEventListener("focusout", ({ relatedTarget }) => {
+    if (!(relatedTarget instanceof Node && element.contains(relatedTarget))) viewport.grab(null);
+  });
   for (const plot of plots) plot.add(opened.frame.rows, opened.shown.length + 1);
   void allTextures(opened.textures, viewport.textures, models).then((textures) => {
     if (textures !== null) viewport.setTextures(textures);
@@ -204,6 +213,7 @@ export async function openPanel(spec: LabSpec, models: Models, state: Uint8Array
       for (const plot of plots) plot.restyle();
       if (atStart) show();
     },
+    release: () => viewport.grab(null),
     dispose() {
       forgetPaced(show);
       player.close();

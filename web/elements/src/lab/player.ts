@@ -21,6 +21,8 @@ export interface Player {
   set(label: string, value: ControlValue): Promise<void>;
   press(label: string): Promise<void>;
   drag(drag: Drag | null): Promise<void>;
+  /** The state as bytes. */
+  save(): Promise<Uint8Array>;
   close(): void;
 }
 
@@ -30,6 +32,15 @@ export interface PlayerEvents {
   /** The actual speed, if it is lower than the requested one; otherwise `null`. */
   slow(speed: number | null): void;
   failed(e: unknown): void;
+  /** The lab is about to go back to its start. */
+  resetting(): void;
+}
+
+/** A control that is being moved: the value that waits, and the answer to the one that was sent last. */
+interface Move {
+  next: ControlValue | undefined;
+  sent: Promise<void>;
+  done: Promise<void>;
 }
 
 /** The maximum time between two frames for which the lab catches up, s. */
@@ -41,7 +52,7 @@ export function createPlayer(remote: RemoteLab, events: PlayerEvents): Player {
   let [stop, isWaiting, last, isVisible, speed]: [(() => void) | null, boolean, number, boolean, number] = [null, false, 0, true, 1];
   let [isOver, lag] = [remote.opened.frame.isOver, 0];
   // The last value of a control that is being moved waits for the one before it.
-  const moving = new Map<string, { next: ControlValue | undefined; done: Promise<void> }>();
+  const moving = new Map<string, Move>();
   const take = (frame: Frame): void => {
     isOver = frame.isOver;
     events.frame(frame);
@@ -76,12 +87,20 @@ export function createPlayer(remote: RemoteLab, events: PlayerEvents): Player {
       player.pause();
     });
   };
-  const setOnce = async (label: string, entry: { next: ControlValue | undefined }): Promise<void> => {
+  const send = (label: string, move: Move): void => {
+    if (move.next === undefined) return;
+    const value = move.next;
+    move.next = undefined;
+    move.sent = ask(remote.ask("set", label, value));
+  };
+  /** Sends the values that wait: what the reader does next comes after them. */
+  const sendAll = (): void => moving.forEach((move, label) => send(label, move));
+  const setOnce = async (label: string, move: Move): Promise<void> => {
     try {
-      while (entry.next !== undefined) {
-        const value = entry.next;
-        entry.next = undefined;
-        await ask(remote.ask("set", label, value));
+      for (let sent: Promise<void> | null = null; move.next !== undefined || move.sent !== sent;) {
+        send(label, move);
+        sent = move.sent;
+        await sent;
       }
     } finally {
       moving.delete(label);
@@ -111,21 +130,38 @@ export function createPlayer(remote: RemoteLab, events: PlayerEvents): Player {
       events.slow(null);
       events.playing(false);
     },
-    advance: (seconds) => ask(remote.ask("advance", seconds, Infinity)),
-    step: (steps) => ask(remote.ask("step", steps)),
-    reset: () => ask(remote.ask("reset")),
+    advance(seconds) {
+      sendAll();
+      return ask(remote.ask("advance", seconds, Infinity));
+    },
+    step(steps) {
+      sendAll();
+      return ask(remote.ask("step", steps));
+    },
+    reset() {
+      sendAll();
+      events.resetting();
+      return ask(remote.ask("reset"));
+    },
     set(label, value) {
       const before = moving.get(label);
       if (before !== undefined) {
         before.next = value;
         return before.done;
       }
-      const entry: { next: ControlValue | undefined; done: Promise<void> } = { next: value, done: Promise.resolve() };
-      moving.set(label, entry);
-      entry.done = heard(setOnce(label, entry));
-      return entry.done;
+      const move: Move = { next: value, sent: Promise.resolve(), done: Promise.resolve() };
+      moving.set(label, move);
+      move.done = heard(setOnce(label, move));
+      return move.done;
     },
-    press: (label) => ask(remote.ask("press", label)),
+    press(label) {
+      sendAll();
+      return ask(remote.ask("press", label));
+    },
+    save() {
+      sendAll();
+      return remote.ask("save");
+    },
     drag: (drag) => ask(remote.ask("drag", drag)),
     close() {
       player.pause();

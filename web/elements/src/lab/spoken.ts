@@ -11,7 +11,7 @@ export interface Spoken {
   readonly log: HTMLElement;
   /** Says something as soon as it is polite. */
   say(text: string): void;
-  /** Reports events, and returns their sentences. */
+  /** Reports events, and returns the sentence of each of them; the list and the region have one sentence for many contacts. */
   report(events: readonly EngineEvent[]): readonly string[];
   /** The sentences of the list. */
   readonly sentences: readonly string[];
@@ -45,14 +45,13 @@ export function createSpoken(say: Say): Spoken {
   return {
     region, log: details, say: speak,
     report(events) {
-      const sentences = describeEvents(events, say);
-      for (const sentence of sentences) {
+      for (const sentence of summarize(events, say)) {
         speak(sentence);
         list.append(h("li", {}, sentence));
       }
       while (list.childElementCount > MOST_LISTED) list.firstElementChild?.remove();
       details.hidden = list.childElementCount === 0;
-      return sentences;
+      return events.map((event) => describeEvent(event, say));
     },
     get sentences() { return [...list.children].map((item) => item.textContent ?? ""); },
     clear() {
@@ -63,22 +62,23 @@ export function createSpoken(say: Say): Spoken {
 }
 
 /** Events as sentences; many contacts at once as one. */
-export function describeEvents(events: readonly EngineEvent[], say: Say): string[] {
+export function summarize(events: readonly EngineEvent[], say: Say): string[] {
   const contacts = events.filter((event) => event.type === "contact");
-  const out: string[] = [];
-  if (contacts.length > MOST_CONTACTS) {
-    const [first, last] = [contacts[0]?.time ?? 0, contacts[contacts.length - 1]?.time ?? 0];
-    out.push(say("manyContacts", { count: contacts.length, from: formatTime(first), to: formatTime(last) }));
+  if (contacts.length <= MOST_CONTACTS) return events.map((event) => describeEvent(event, say));
+  const [first, last] = [contacts[0]?.time ?? 0, contacts[contacts.length - 1]?.time ?? 0];
+  const others = events.filter((event) => event.type !== "contact").map((event) => describeEvent(event, say));
+  return [say("manyContacts", { count: contacts.length, from: formatTime(first), to: formatTime(last) }), ...others];
+}
+
+/** An event as a sentence. */
+export function describeEvent(event: EngineEvent, say: Say): string {
+  const time = formatTime(event.time);
+  switch (event.type) {
+    case "contact": return capital(say(event.touching ? "touches" : "parts", { ...ordered(event.first, event.second), time }));
+    case "stop": return say("stopped", { time });
+    case "restart": return say("diverged", { time });
+    case "finding": return event.finding.message;
   }
-  for (const event of events) {
-    const time = formatTime(event.time);
-    if (event.type === "contact" && contacts.length <= MOST_CONTACTS) {
-      out.push(capital(say(event.touching ? "touches" : "parts", { ...ordered(event.first, event.second), time })));
-    } else if (event.type === "stop") out.push(say("stopped", { time }));
-    else if (event.type === "restart") out.push(say("diverged", { time }));
-    else if (event.type === "finding") out.push(event.finding.message);
-  }
-  return out;
 }
 
 /** Orders two names: the floor, a wall or a table is the second one. */

@@ -3,7 +3,7 @@ import { h, uniqueId } from "../dom.js";
 import type { Opened } from "../engine/messages.js";
 import type { LabSpec } from "../spec.js";
 import type { Say } from "../text/messages.js";
-import type { Viewport } from "./viewport.js";
+import { bodyName, type Viewport } from "./viewport.js";
 
 export interface ViewBar {
   readonly element: HTMLElement | null;
@@ -42,16 +42,37 @@ function createCameras({ model }: Opened, viewport: Viewport, say: Say): HTMLEle
 }
 
 function createBodies(opened: Opened, viewport: Viewport, say: Say): { element: HTMLElement; clear(): void } | null {
-  const bodies = opened.bodies.map((name, id) => ({ name: name === "" ? say("bodyNumber", { number: id }) : name.replaceAll("_", " "), id }));
+  const bodies = opened.bodies.map((_, id) => ({ name: bodyName(opened, id, say), id }));
   const movable = bodies.filter(({ id }) => opened.movable[id] === true);
   if (movable.length === 0) return null;
   const id = uniqueId();
-  const select = h("select", { id, class: "drag" }, h("option", { value: "" }, say("noBody")), ...movable.map((body) => h("option", { value: body.id }, body.name)));
-  select.addEventListener("change", () => viewport.grab(select.value === "" ? null : Number(select.value)));
+  const select = h("select", { id, class: "drag", title: say("dragEnter") }, h("option", { value: "" }, say("noBody")), ...movable.map((body) => h("option", { value: body.id }, body.name)));
+  let [held, key]: [string, string | null] = ["", null];
+  const grab = (): void => {
+    const { value } = select;
+    viewport.grab(value === "" ? null : Number(value));
+    [held, select.value] = [value, value];
+  };
+  // Arrow keys choose a body of a closed list one after the other. Only Enter takes it: the focus goes to the picture then.
+  select.addEventListener("keydown", (event) => {
+    key = event.key;
+    if (key !== "Enter" || select.value === held) return;
+    event.preventDefault();
+    grab();
+  });
+  select.addEventListener("pointerdown", () => {
+    key = null;
+  });
+  select.addEventListener("change", () => {
+    if (key === null || key === "Enter" || select.value === "") grab();
+  });
+  select.addEventListener("blur", () => {
+    select.value = held;
+  });
   return {
     element: h("span", { class: "choice" }, h("label", { for: id }, say("dragBody")), select),
     clear() {
-      select.value = "";
+      [held, select.value] = ["", ""];
     },
   };
 }

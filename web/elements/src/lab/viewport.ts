@@ -41,6 +41,12 @@ export interface ViewportActions {
   released(): void;
 }
 
+/** The name of a body for readers. */
+export function bodyName({ bodies }: Opened, body: number, say: Say): string {
+  const name = bodies[body] ?? "";
+  return name === "" ? say("bodyNumber", { number: body }) : name.replaceAll("_", " ");
+}
+
 /** Pixels that a pointer may move in a tap. */
 const TAP = 8;
 const TURN = 0.4;
@@ -124,7 +130,7 @@ export function createViewport(opened: Opened, spec: LabSpec, say: Say, actions:
       state.held = { ...held, target: state.target };
       actions.drag(state.held);
       view.setDrag({ from: state.target, to: state.target });
-      const name = opened.bodies[body] ?? "";
+      const name = bodyName(opened, body, say);
       actions.say(`${say("grabbed", { body: name })} ${say("dragHelp", { body: name })}`);
       element.focus();
     },
@@ -190,6 +196,10 @@ function listen(element: HTMLElement, canvas: HTMLCanvasElement, view: View, ope
   canvas.addEventListener("pointerdown", (event) => {
     const at = place(event);
     moved = 0;
+    // A second pointer pinches the picture: the first one drags no body then.
+    if (mode === "drag") release(view, state, actions);
+    // The ends of earlier pointers may have been lost, for example when the lab was moved in its page.
+    if (event.isPrimary) pointers.clear();
     if (event.pointerType === "touch" && !state.isActive) {
       mode = "none";
       return void pointers.set(event.pointerId, at);
@@ -219,7 +229,9 @@ function listen(element: HTMLElement, canvas: HTMLCanvasElement, view: View, ope
       pinchCamera(view, [...pointers.values()], before, at);
       return view.draw();
     }
-    if (mode === "drag" && state.held !== null) {
+    if (mode === "drag") {
+      // The body may have been released by a reset.
+      if (state.held === null) return;
       state.target = view.unproject(at.x, at.y, state.target);
       state.held = { ...state.held, target: state.target };
       actions.drag(state.held);
@@ -233,12 +245,11 @@ function listen(element: HTMLElement, canvas: HTMLCanvasElement, view: View, ope
       element.focus({ preventScroll: true });
       activate(true);
     }
-    pointers.delete(event.pointerId);
+    if (!pointers.delete(event.pointerId)) return;
     if (mode === "drag") release(view, state, actions);
     if (pointers.size === 0) mode = "none";
   };
-  canvas.addEventListener("pointerup", end);
-  canvas.addEventListener("pointercancel", end);
+  for (const type of ["pointerup", "pointercancel", "lostpointercapture"] as const) canvas.addEventListener(type, end);
   element.addEventListener("wheel", (event) => {
     // A page that is scrolled is not held up: the picture zooms when it has the focus, or with Ctrl.
     if (element.getRootNode() instanceof ShadowRoot && (element.getRootNode() as ShadowRoot).activeElement !== element && !event.ctrlKey) return;
@@ -248,11 +259,12 @@ function listen(element: HTMLElement, canvas: HTMLCanvasElement, view: View, ope
   }, { passive: false });
   element.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
-    const used = state.held === null ? moveCameraByKey(view, event, state.home) : dragByKey(view, event, state, opened.model.extent, actions);
+    const { held } = state;
+    const used = held === null ? moveCameraByKey(view, event, state.home) : dragByKey(view, event, state, opened.model.extent, actions);
     if (!used) return;
     event.preventDefault();
     event.stopPropagation();
-    if (event.key === "Escape") actions.say(say("released", { body: "" }).trim());
+    if (held !== null && state.held === null) actions.say(say("released", { body: bodyName(opened, held.body, say) }));
     view.draw();
   });
 }

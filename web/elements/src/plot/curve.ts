@@ -1,6 +1,6 @@
 /** A small curve as SVG, for texts: a trace with its first and last time and its smallest and largest value. */
 import { formatBrief, formatTime } from "../text/numbers.js";
-import { extremes, type Series } from "./series.js";
+import { extremes, resolutionOf, type Series } from "./series.js";
 
 const WIDTH = 240, HEIGHT = 64;
 const MOST_POINTS = 240;
@@ -28,10 +28,11 @@ export function curveOf(series: Series, trace: number, label: string): SVGElemen
     isOpen = Number.isFinite(value);
   }
   const svg = draw("svg", { viewBox: `-4 -14 ${WIDTH + 8} ${HEIGHT + 30}`, width: WIDTH + 8, height: HEIGHT + 30, role: "img", "aria-label": label, class: "curve" });
+  const resolution = resolutionOf(series, trace);
   const note = (at: number, row: number, anchor: string, text: string): SVGElement => draw("text", { x: at, y: row, "text-anchor": anchor }, text);
   svg.append(
     draw("line", { x1: 0, x2: WIDTH, y1: HEIGHT + 1, y2: HEIGHT + 1 }), draw("path", { d: path }),
-    note(0, -4, "start", formatBrief(found.max)), note(0, HEIGHT - 4, "start", found.max > found.min ? formatBrief(found.min) : ""),
+    note(0, -4, "start", formatBrief(found.max, resolution)), note(0, HEIGHT - 4, "start", found.max > found.min ? formatBrief(found.min, resolution) : ""),
     note(0, HEIGHT + 13, "start", `${formatTime(start)} s`), note(WIDTH, HEIGHT + 13, "end", `${formatTime(end)} s`));
   return svg;
 }

@@ -4,7 +4,7 @@ import type { PlotSpec } from "../spec.js";
 import type { Say } from "../text/messages.js";
 import { formatBrief, formatTime } from "../text/numbers.js";
 import { drawPlot, timeOf, type PlotArea, type PlotLook } from "./draw.js";
-import { addRows, clearSeries, createSeries, nearestIndex, toCsv, type Series } from "./series.js";
+import { addRows, clearSeries, createSeries, nearestIndex, resolutionOf, toCsv, type Series } from "./series.js";
 import { startSound, type Sound } from "./sound.js";
 import { describeTrace, tableRows } from "./summary.js";
 
@@ -25,7 +25,7 @@ export interface Plot {
 
 /** A plot whose traces are the `columns` of a row, counted after the time. */
 export function createPlot(spec: PlotSpec, columns: readonly number[], title: string, say: Say): Plot {
-  const series = createSeries(columns.length);
+  const series = createSeries(columns.length, spec.window);
   const labels = columns.map((_, i) => spec.traces[i]?.label ?? "");
   const timeLabel = spec.xlabel ?? say("time");
   const canvas = h("canvas", { part: "plot-canvas" });
@@ -62,9 +62,10 @@ export function createPlot(spec: PlotSpec, columns: readonly number[], title: st
     const rows = tableRows(series).map((row) => h("tr", {}, ...row.map((cell, i) => (i === 0 ? h("th", { scope: "row" }, cell) : h("td", {}, cell)))));
     table.replaceChildren(...rows);
   };
+  const printed = (trace: number, index: number): string => formatBrief(series.values[trace]?.[index] ?? NaN, resolutionOf(series, trace));
   const showValues = (): void => {
     const index = hovered >= 0 && hovered < series.length ? hovered : series.length - 1;
-    values.forEach((value, i) => setText(value, index < 0 ? "" : formatBrief(series.values[i]?.[index] ?? NaN).replace(/^-/, "−")));
+    values.forEach((value, i) => setText(value, index < 0 ? "" : printed(i, index).replace(/^-/, "−")));
     setText(hoverTime, hovered >= 0 && index >= 0 ? say("at", { time: formatTime(series.times[index] ?? NaN) }) : "");
   };
   const hover = (index: number): void => {
@@ -106,7 +107,7 @@ export function createPlot(spec: PlotSpec, columns: readonly number[], title: st
     event.preventDefault();
     hover(event.key === "Escape" ? -1 : Math.max(0, Math.min(series.length - 1, to)));
     if (hovered < 0) return;
-    const readings = labels.map((label, i) => `${label} ${formatBrief(series.values[i]?.[hovered] ?? NaN)}`);
+    const readings = labels.map((label, i) => `${label} ${printed(i, hovered)}`);
     setText(spoken, `${say("at", { time: formatTime(series.times[hovered] ?? NaN) })}: ${readings.join(", ")}`);
   });
   const silence = (): void => {

@@ -7,10 +7,11 @@ export interface Range {
   readonly max: number;
 }
 
-/** The seconds that a plot shows: its window, which begins to move when it is full. */
+/** The seconds that a plot shows: its window, which begins at zero or at an earlier first sample, and moves when it is full. */
 export function timeRange(series: Series, window: number): Range {
   const last = series.length > 0 ? (series.times[series.length - 1] ?? 0) : 0;
-  const max = Math.max(window, last);
+  const first = series.length > 0 ? (series.times[0] ?? 0) : 0;
+  const max = Math.max(Math.min(0, first) + window, last);
   return { min: max - window, max };
 }
 

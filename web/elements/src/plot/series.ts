@@ -1,7 +1,9 @@
-/** The samples of a plot: times, and for each trace its values. Bounded: older samples than anybody looks at are dropped. */
+/** The samples of a plot: times, and for each trace its values. Bounded: the older samples of a long run are thinned out. */
 
 export interface Series {
   readonly traces: number;
+  /** The latest seconds, which stay as dense as there is room. */
+  readonly window: number;
   /** Samples that are held. */
   length: number;
   times: Float64Array;
@@ -11,8 +13,8 @@ export interface Series {
 const START = 1024;
 const MOST = 1 << 15;
 
-export function createSeries(traces: number): Series {
-  return { traces, length: 0, times: new Float64Array(START), values: Array.from({ length: traces }, () => new Float64Array(START)) };
+export function createSeries(traces: number, window = Infinity): Series {
+  return { traces, window, length: 0, times: new Float64Array(START), values: Array.from({ length: traces }, () => new Float64Array(START)) };
 }
 
 /** Forgets all samples. */
@@ -39,7 +41,7 @@ export function addRows(series: Series, rows: Float64Array, width: number, colum
   }
 }
 
-/** Twice the room, or half of the samples. */
+/** Twice the room, or half of the samples before the window; while these are few, half of the older ones in the window. */
 function makeRoom(series: Series): void {
   if (series.times.length < MOST) {
     const grow = (list: Float64Array): Float64Array => {
@@ -51,14 +53,51 @@ function makeRoom(series: Series): void {
     series.values = series.values.map(grow);
     return;
   }
-  const half = series.length >> 1;
-  for (const list of [series.times, ...series.values]) list.copyWithin(0, half, series.length);
-  series.length -= half;
+  const { length } = series;
+  const begin = indexAt(series, (series.times[length - 1] ?? 0) - series.window);
+  if (begin >= MOST / 4) thinOut(series, 0, begin);
+  else thinOut(series, begin, begin + ((length - begin) >> 1));
+}
+
+/**
+ * Keeps at most half of the samples between two places, and the first sample of the run. Their time is divided into equal parts; of each, the
+ * lowest and the highest value of each trace are kept, and others evenly as far as there is room.
+ */
+function thinOut(series: Series, begin: number, end: number): void {
+  const lists = [series.times, ...series.values];
+  const room = 2 * Math.max(1, series.traces);
+  let from = Math.max(1, begin), kept = from;
+  const [first, last] = [series.times[from] ?? 0, series.times[end - 1] ?? 0];
+  const parts = Math.max(1, Math.floor((end - from) / 2 / room));
+  for (let part = 1; part <= parts; part++) {
+    const to = part === parts ? end : Math.min(end, Math.max(from, indexAt(series, first + ((last - first) * part) / parts, from)));
+    const places = new Set(series.values.flatMap((list) => extremePlaces(list, from, to)));
+    const stride = Math.max(1, (to - from) / room);
+    for (let place = from; place < to && places.size < room; place += stride) places.add(Math.floor(place));
+    for (const place of [...places].filter((one) => one < to).sort((x, y) => x - y)) {
+      for (const list of lists) list[kept] = list[place] ?? NaN;
+      kept++;
+    }
+    from = to;
+  }
+  for (const list of lists) list.copyWithin(kept, end, series.length);
+  series.length += kept - end;
+}
+
+/** Where the lowest and the highest value of a part are; the first sample of the part where it has no numbers. */
+function extremePlaces(list: Float64Array, from: number, end: number): [number, number] {
+  let [low, high, lowest, highest] = [Infinity, -Infinity, from, from];
+  for (let i = from; i < end; i++) {
+    const value = list[i] ?? NaN;
+    if (value < low) [low, lowest] = [value, i];
+    if (value > high) [high, highest] = [value, i];
+  }
+  return [lowest, highest];
 }
 
 /** The first sample at or after a time. */
-export function indexAt(series: Series, time: number): number {
-  let [low, high] = [0, series.length];
+export function indexAt(series: Series, time: number, from = 0): number {
+  let [low, high] = [from, series.length];
   while (low < high) {
     const middle = (low + high) >> 1;
     if ((series.times[middle] ?? 0) < time) low = middle + 1;
@@ -95,6 +134,15 @@ export function extremes(series: Series, trace: number, from: number, to: number
   }
   if (minAt < 0) return null;
   return { min, minTime: series.times[minAt] ?? 0, max, maxTime: series.times[maxAt] ?? 0 };
+}
+
+/** The difference of values that a text about a trace must show: a hundredth of their range. */
+export function resolutionOf(series: Series, trace: number): number {
+  const found = extremes(series, trace, 0, series.length);
+  if (found === null) return Infinity;
+  const range = found.max - found.min;
+  // A range of this size is rounding.
+  return range > 1e-9 * Math.abs(found.max) ? range / 100 : Infinity;
 }
 
 /** All samples as comma-separated values: numbers in full. */

@@ -19,6 +19,8 @@ export interface CardContext {
   readonly name: string;
   readonly say: Say;
   readonly stored: Stored | null;
+  /** Stores an answer whose verdict is not shown yet. It does not count. */
+  committed(answer: Stored): void;
   /** Stores an answer and reports it to the page. */
   answered(answer: Stored): void;
 }
@@ -38,11 +40,20 @@ export function createCard(context: CardContext, label: string | null, prompt: s
   const promptId = `labspec-question-${++prompts}`;
   const place = say("question", { number, count });
   const form = h("form", { class: "answer", novalidate: true });
-  const verdict = h("div", { class: "verdict-area", role: "status" });
+  const verdict = h("div", { class: "verdict-area", role: "status", tabindex: -1 });
   const element = h("section", { class: "question", part: "question", "aria-labelledby": promptId },
     h("p", { class: "kind" }, label === null ? place : `${place} · ${label}`),
     h("div", { class: "prose prompt", id: promptId, dir: "auto" }, safeHtml(prompt, document)), form, verdict);
   return { element, form, verdict, promptId };
+}
+
+/** Changes a question. If the change takes the focus from a control of it, the verdict has the focus then. */
+export function keepFocus({ element, verdict }: Pick<CardParts, "element" | "verdict">, change: () => void): void {
+  const root = element.getRootNode();
+  const focused = root instanceof ShadowRoot ? root.activeElement : null;
+  const isInside = focused !== null && element.contains(focused);
+  change();
+  if (isInside && (!focused.isConnected || focused.matches(":disabled, [hidden]"))) verdict.focus();
 }
 
 /** Shows the verdict on an answer, with its explanation. */

@@ -5,7 +5,7 @@ import { SimLab } from "../lab/element.js";
 import { numberOf, type Json } from "../spec.js";
 import { safeHtml } from "../text/sanitize.js";
 import { compareWithLab } from "./evidence.js";
-import { createCard, showRemark, showVerdict, type Card, type CardContext } from "./card.js";
+import { createCard, keepFocus, showRemark, showVerdict, type Card, type CardContext } from "./card.js";
 import { isRightChoice, isRightOption } from "./grade.js";
 import type { ChoiceQuestion } from "./read.js";
 import type { Stored } from "./store.js";
@@ -35,15 +35,22 @@ export function createChoice(question: ChoiceQuestion, context: CardContext, mod
     submit.hidden = true;
     form.querySelector(".hint")?.remove();
   };
+  const unmark = (): void => {
+    for (const row of rows) {
+      row.classList.remove("right", "wrong");
+      row.querySelector(".icon")?.remove();
+    }
+  };
   /** Marks the chosen options, and the right ones if the question is finished. */
   const mark = (choice: readonly number[]): void => {
+    unmark();
     rows.forEach((row, i) => {
-      const right = isRightOption(question, i) ?? (isRight === true && choice.includes(i) ? true : choice.includes(i) ? false : null);
-      row.classList.toggle("right", right === true && isDone);
-      row.classList.toggle("wrong", right !== true && choice.includes(i));
-      row.querySelector(".icon")?.remove();
-      if (right === true && isDone) row.append(icon("check"));
-      else if (choice.includes(i) && right !== true) row.append(icon("cross"));
+      const isChosen = choice.includes(i);
+      const isGood = isRightOption(question, i, choice, isRight === true);
+      const name = isGood === true && isDone ? "right" : isGood === false && isChosen ? "wrong" : null;
+      if (name === null) return;
+      row.classList.add(name);
+      row.append(icon(name === "right" ? "check" : "cross"));
     });
   };
   const conclude = (choice: readonly number[], lab: SimLab | null = null): void => {
@@ -59,20 +66,35 @@ export function createChoice(question: ChoiceQuestion, context: CardContext, mod
     const choice = chosen();
     if (choice.length === 0 && type === "radio") return showRemark(verdict, say("chooseFirst"));
     tries++;
+    if (isPredict && question.sim !== null) return predict(choice, question.sim);
     isRight = isRightChoice(question, choice);
-    isDone = isRight || tries >= question.attempts || isPredict;
+    isDone = isRight || tries >= question.attempts;
     context.answered(stored(choice));
     if (!isDone) {
       mark(choice);
       return showVerdict(verdict, false, say("wrong"), null, [h("p", {}, say("attempts", { number: tries, count: question.attempts }))]);
     }
-    lock();
-    if (isPredict && question.sim !== null) watchLab(question.sim, models, parts, context, (lab) => conclude(choice, lab));
-    else conclude(choice);
+    keepFocus(parts, () => {
+      lock();
+      conclude(choice);
+    });
   });
+  /** Commits a prediction. It counts when the lab has run: until then, the score would give its verdict away. */
+  const predict = (choice: readonly number[], sim: Json): void => {
+    isDone = true;
+    context.committed(stored(choice));
+    keepFocus(parts, () => {
+      lock();
+      watchLab(sim, models, parts, context, (lab) => {
+        isRight = isRightChoice(question, choice);
+        context.answered(stored(choice));
+        keepFocus(parts, () => conclude(choice, lab));
+      });
+    });
+  };
   for (const input of inputs) {
     input.addEventListener("change", () => {
-      if (!isDone) for (const row of rows) row.classList.remove("wrong");
+      if (!isDone) unmark();
     });
   }
   restore(context.stored);
@@ -84,7 +106,10 @@ export function createChoice(question: ChoiceQuestion, context: CardContext, mod
       const input = inputs[i];
       if (input !== undefined) input.checked = true;
     }
-    [tries, isRight, isDone] = [before.tries, isRightChoice(question, before.choice), before.isDone];
+    [tries, isDone] = [before.tries, before.isDone];
+    // The page was left while the lab of the prediction ran.
+    if (isDone && before.isRight === null && isPredict && question.sim !== null) return predict(before.choice, question.sim);
+    isRight = isRightChoice(question, before.choice);
     if (!isDone) return;
     lock();
     if (isPredict && question.sim !== null) parts.verdict.before(createLab(question.sim, models, context));
@@ -109,28 +134,34 @@ function watchLab(sim: Json, models: Models | null, parts: { verdict: HTMLElemen
   const show = h("button", { type: "button" }, say("showVerdict"));
   parts.verdict.before(lab);
   parts.verdict.replaceChildren(h("div", { class: "watch" }, h("p", {}, say("running")), show));
-  let isOver = false;
+  let [isOver, timer]: [boolean, ReturnType<typeof setInterval> | undefined] = [false, undefined];
   const finish = (): void => {
     if (isOver) return;
     isOver = true;
     clearInterval(timer);
     lab.removeEventListener("lab-pause", look);
+    lab.removeEventListener("lab-ready", begin);
     conclude(lab);
   };
   const until = numberOf(sim["stopAt"]) ?? WATCH;
   const look = (): void => {
+    // A lab that is taken away is watched again when it is opened again.
+    if (!lab.isConnected) return clearInterval(timer);
     if (lab.isOver || lab.time >= until) {
       lab.pause();
       finish();
     }
   };
-  const timer = setInterval(look, 150);
-  lab.addEventListener("lab-pause", look);
-  show.addEventListener("click", finish);
   const wantsNoMotion = matchMedia("(prefers-reduced-motion: reduce)").matches;
-  void lab.ready.then(() => {
+  const begin = (): void => {
+    clearInterval(timer);
+    timer = setInterval(look, 150);
     if (!wantsNoMotion) lab.play();
-  }, () => finish());
+  };
+  lab.addEventListener("lab-pause", look);
+  lab.addEventListener("lab-ready", begin);
+  show.addEventListener("click", finish);
+  lab.ready.catch(finish);
 }
 
 function plainText(html: string): string {

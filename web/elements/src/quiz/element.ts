@@ -23,6 +23,8 @@ export class LessonQuiz extends HTMLElement {
   #quiz: object | string | null = null;
   #models: Models | null = null;
   #turn = 0;
+  /** Whether the reader has cleared the answers: the first question has the focus then. */
+  #isCleared = false;
 
   /** The quiz as an object or as JSON. */
   get quiz(): object | string | null { return this.#quiz; }
@@ -61,14 +63,18 @@ export class LessonQuiz extends HTMLElement {
       const { json } = await readContent(this, this.#quiz, say("noQuiz"), say);
       const spec = readQuiz(json, say);
       if (spec === null) throw new ContentError(say("noQuestions"));
-      shown = await this.#build(spec, json, say);
+      shown = await this.#build(spec, json, say, () => turn !== this.#turn);
     } catch (e) {
       shown = errorPanel(say("quizBroken"), [e instanceof Error ? e.message : String(e)], null);
     }
-    if (turn === this.#turn) root.replaceChildren(shown);
+    if (turn !== this.#turn) return;
+    root.replaceChildren(shown);
+    if (this.#isCleared) root.querySelector<HTMLElement>(".question :is(input, textarea)")?.focus();
+    this.#isCleared = false;
   }
 
-  async #build(spec: QuizSpec, json: Json, say: Say): Promise<HTMLElement> {
+  /** Builds the questions. Once the quiz `isOld`, for example cleared, its questions report nothing more. */
+  async #build(spec: QuizSpec, json: Json, say: Say, isOld: () => boolean): Promise<HTMLElement> {
     const grading = await this.#grading(spec);
     const score = h("span", { class: "score", role: "status" });
     const clear = h("button", { type: "button", class: "quiet" }, say("clear"));
@@ -86,7 +92,11 @@ export class LessonQuiz extends HTMLElement {
       }
       const context: CardContext = {
         number: index + 1, count: spec.questions.length, name: `${spec.id}.${index + 1}`, say, stored: grading.load(index),
+        committed: (answer) => {
+          if (!isOld()) grading.store(index, answer);
+        },
         answered: (answer) => {
+          if (isOld()) return;
           grading.store(index, answer);
           const given = question.kind === "numeric" || question.kind === "open" || question.kind === "code" ? answer.text : answer.choice;
           const detail = { quiz: spec.id, index, kind: question.kind, answer: given, correct: answer.isRight, attempt: answer.tries, done: answer.isDone };
@@ -102,6 +112,7 @@ export class LessonQuiz extends HTMLElement {
     clear.addEventListener("click", () => {
       spec.questions.forEach((_, index) => grading.store(index, null));
       grading.report({ right: 0, count: countRight(cards).count }, null);
+      this.#isCleared = true;
       this.#reopen();
     });
     const broken = (why: string, i: number): HTMLElement => errorPanel(say("quizBroken"), [say("badQuestion", { number: i + 1, why })], null);

@@ -12,9 +12,14 @@ export function isRightChoice(question: ChoiceQuestion, choice: readonly number[
   return hashAnswer(key.salt, said) === key.sha256;
 }
 
-/** Whether an option is correct, or `null` if only the hash of the answer is available. */
-export function isRightOption(question: ChoiceQuestion, option: number): boolean | null {
-  return "choice" in question.key ? question.key.choice.includes(option) : null;
+/**
+ * Whether an option is correct; `null` where only the hash of the answer is available, and the verdict `isRight` on a choice does not tell: a
+ * wrong choice of several options may contain right ones.
+ */
+export function isRightOption(question: ChoiceQuestion, option: number, choice: readonly number[], isRight: boolean): boolean | null {
+  if ("choice" in question.key) return question.key.choice.includes(option);
+  if (!choice.includes(option)) return null;
+  return isRight ? true : question.kind === "multiple" ? null : false;
 }
 
 /** A number is right when it is at most the tolerance away, as in the lab format. */

@@ -1,26 +1,28 @@
 /** Questions that are answered in writing: a number, a text, a program. */
 import { h, uniqueId } from "../dom.js";
-import { formatBrief, parseTyped } from "../text/numbers.js";
-import { createCard, showRemark, showVerdict, type Card, type CardContext } from "./card.js";
+import { formatBrief, formatUnit, parseTyped } from "../text/numbers.js";
+import { createCard, keepFocus, showRemark, showVerdict, type Card, type CardContext } from "./card.js";
 import { isRightNumber } from "./grade.js";
 import type { NumericQuestion, OpenQuestion } from "./read.js";
 
 export function createNumeric(question: NumericQuestion, context: CardContext): Card {
   const { say } = context;
-  const { element, form, verdict, promptId } = createCard(context, question.label, question.q);
+  const parts = createCard(context, question.label, question.q);
+  const { element, form, verdict, promptId } = parts;
   const id = uniqueId();
   const input = h("input", { id, type: "text", inputmode: "decimal", autocomplete: "off", size: 10, "aria-describedby": promptId, part: "input" });
   const submit = h("button", { type: "submit", class: "primary" }, say("check"));
-  const label = question.unit === "" ? say("yourAnswer") : `${say("yourAnswer")}, ${say("inUnit", { unit: question.unit })}`;
+  const unit = formatUnit(question.unit);
+  const label = unit === "" ? say("yourAnswer") : `${say("yourAnswer")}, ${say("inUnit", { unit })}`;
   form.append(h("div", { class: "typed" }, h("label", { for: id, class: "hidden" }, label), input,
-    question.unit !== "" && h("span", { class: "unit", "aria-hidden": "true" }, question.unit), submit));
+    unit !== "" && h("span", { class: "unit", "aria-hidden": "true" }, unit), submit));
   let [tries, isRight, isDone]: [number, boolean | null, boolean] = [0, null, false];
   const conclude = (): void => {
     if (isDone) {
       input.disabled = true;
       submit.hidden = true;
     }
-    const answer = `${formatBrief(question.answer)}${question.unit === "" ? "" : ` ${question.unit}`}`;
+    const answer = `${formatBrief(question.answer, question.tol)}${unit === "" ? "" : ` ${unit}`}`;
     const remark = isRight === true ? null : h("p", {}, isDone ? say("correctAnswer", { answer }) : `${attemptText()} ${say("tryAgain")}.`);
     showVerdict(verdict, isRight, say(isRight === true ? "correct" : "wrong"), isDone ? question.explain : null, [remark]);
   };
@@ -38,7 +40,7 @@ export function createNumeric(question: NumericQuestion, context: CardContext): 
     isRight = isRightNumber(question, value);
     isDone = isRight || tries >= question.attempts;
     context.answered({ choice: [], text: input.value, tries, isRight, isDone });
-    conclude();
+    keepFocus(parts, conclude);
   });
   const { stored } = context;
   const before = stored === null ? null : parseTyped(stored.text, question.unit);

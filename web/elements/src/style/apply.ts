@@ -17,14 +17,16 @@ export function applyStyles(root: ShadowRoot): void {
 
 const QUERIES = ["(prefers-color-scheme: dark)", "(forced-colors: active)", "(prefers-contrast: more)"];
 
-/** Calls `restyle` when the colours of the page may have changed; returns a function that ends this. */
-export function watchTheme(restyle: () => void): () => void {
+/** Calls `restyle` when the colours of the page or of an element may have changed; returns a function that ends this. */
+export function watchTheme(element: Element, restyle: () => void): () => void {
   const later = (): void => void requestAnimationFrame(restyle);
   const queries = QUERIES.map((query) => matchMedia(query));
   for (const query of queries) query.addEventListener("change", later);
   const roots = new MutationObserver(later);
-  for (const element of [document.documentElement, document.body]) {
-    roots.observe(element, { attributes: true, attributeFilter: ["class", "style", "data-theme", "data-color-mode", "theme"] });
+  const root = element.getRootNode();
+  const hosts = root instanceof ShadowRoot ? [root.host] : [];
+  for (const watched of [document.documentElement, document.body, element, ...hosts]) {
+    roots.observe(watched, { attributes: true, attributeFilter: ["class", "style", "data-theme", "data-color-mode", "theme"] });
   }
   return () => {
     for (const query of queries) query.removeEventListener("change", later);

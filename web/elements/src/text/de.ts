@@ -39,6 +39,7 @@ export const german: Messages = {
   viewHelp: "Pfeiltasten drehen die Kamera, mit der Umschalttaste verschieben sie sie, Plus und Minus zoomen, Pos1 setzt sie zurück.",
   viewTap: "Antippen, um die Kamera zu drehen und Körper zu ziehen",
   dragHelp: "Pfeiltasten, Bild auf und Bild ab ziehen {body}; Escape lässt los.",
+  dragEnter: "Die Eingabetaste greift den gewählten Körper.",
   grabbed: "{body} wird gehalten.",
   released: "{body} ist losgelassen.",
   frames: "Koordinatensysteme",

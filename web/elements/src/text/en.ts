@@ -37,6 +37,7 @@ export const english = {
   viewHelp: "Arrow keys turn the camera, with Shift they move it, plus and minus zoom, Home resets it.",
   viewTap: "Tap to turn the camera and to drag bodies",
   dragHelp: "Arrow keys, Page Up and Page Down pull {body}; Escape lets it go.",
+  dragEnter: "Enter takes hold of the chosen body.",
   grabbed: "{body} is held.",
   released: "{body} is let go.",
   frames: "Frames",

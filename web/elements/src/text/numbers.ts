@@ -9,19 +9,36 @@ export function formatNumber(x: number, digits: number): string {
   return x.toFixed(Math.max(0, Math.min(20, Math.round(digits))));
 }
 
-/** A number for a tick or a table: as many decimals as its distance to the next one needs. */
+/** The most digits after the point of a mantissa on an axis; a number that needs more is printed in full. */
+const MOST_MANTISSA = 6;
+/** Digits of a double that are exact. */
+const EXACT = 15;
+
+/** The power of ten of the first digit. */
+const power = (x: number): number => Math.floor(Math.log10(Math.abs(x)) + 1e-9);
+
+/** A number for a tick: as many digits as its distance to the next one needs. */
 export function formatTick(x: number, spacing: number): string {
-  if (Math.abs(x) >= 1e6 || (x !== 0 && spacing < 1e-5)) return x.toExponential(1);
-  const digits = Math.max(0, Math.min(8, -Math.floor(Math.log10(spacing) + 1e-9)));
-  const text = x.toFixed(digits);
+  const last = power(spacing);
+  const isExtreme = Math.abs(x) >= 1e6 || spacing < 1e-5;
+  if (isExtreme && x === 0) return "0";
+  const mantissa = isExtreme ? Math.max(1, power(x) - last) : Infinity;
+  if (mantissa <= MOST_MANTISSA) return x.toExponential(mantissa).replace(/^-/, "−");
+  const text = x.toFixed(Math.max(0, Math.min(EXACT, -last)));
   return Number(text) === 0 ? text.replace("-", "") : text.replace("-", "−");
 }
 
-/** Three significant digits, for sentences. */
-export function formatBrief(x: number): string {
+/** A number for sentences: three significant digits, and more where a difference of `resolution` or of 1 would be lost. */
+export function formatBrief(x: number, resolution = Infinity): string {
   if (!Number.isFinite(x)) return formatNumber(x, 3);
-  if (x !== 0 && (Math.abs(x) < 1e-3 || Math.abs(x) >= 1e5)) return x.toExponential(2);
-  return String(Number(x.toPrecision(3)));
+  if (x === 0) return "0";
+  const first = power(x);
+  const isExtreme = Math.abs(x) < 1e-3 || Math.abs(x) >= 1e5;
+  // Numbers that are printed with a power of ten lose the ones, unless the resolution needs them.
+  const finest = isExtreme ? resolution : Math.min(1, resolution);
+  const needed = finest > 0 ? first - power(finest) + 1 : EXACT;
+  const digits = Math.max(3, Math.min(EXACT, needed));
+  return isExtreme && !(first > 0 && digits > first) ? x.toExponential(digits - 1) : String(Number(x.toPrecision(digits)));
 }
 
 /** A time for sentences, s. */
@@ -29,18 +46,31 @@ export function formatTime(time: number): string {
   return time.toFixed(time >= 100 ? 1 : time >= 10 ? 2 : 3);
 }
 
-/** The number in what somebody typed: a comma is a decimal point, and the unit may follow. `null` for anything else. */
-export function parseTyped(text: string, unit: string): number | null {
-  let rest = text.trim().replace(/[\u2212\u2013]/g, "-").replace(/\u00a0/g, " ");
-  if (unit !== "" && rest.endsWith(unit)) rest = rest.slice(0, -unit.length).trim();
-  if (/^[^.,]*,[^.,]*$/.test(rest)) rest = rest.replace(",", ".");
-  rest = rest.replace(/\s*[×x*]\s*10\s*\^?\s*/i, "e");
-  if (!/^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(rest)) return null;
-  const value = Number(rest);
-  return Number.isFinite(value) ? value : null;
+const RAISED: Readonly<Record<string, string>> = { "0": "⁰", "1": "¹", "2": "²", "3": "³", "4": "⁴", "5": "⁵", "6": "⁶", "7": "⁷", "8": "⁸", "9": "⁹", "-": "⁻" };
+const LOWERED = new Map(Object.entries(RAISED).map(([digit, raised]) => [raised, digit]));
+
+/** A text with plain minus signs and spaces, and with raised digits as powers: `m/s²` is `m/s^2`. */
+function plainText(text: string): string {
+  return text.replace(/[\u2212\u2013]/g, "-").replace(/\s/g, " ").replace(/[⁰¹²³⁴-⁹⁻]+/g, (raised) => `^${[...raised].map((one) => LOWERED.get(one) ?? one).join("")}`);
 }
 
-const RAISED: Readonly<Record<string, string>> = { "0": "⁰", "1": "¹", "2": "²", "3": "³", "4": "⁴", "5": "⁵", "6": "⁶", "7": "⁷", "8": "⁸", "9": "⁹", "-": "⁻" };
+/** A unit in one spelling: products with a point, no spaces, the Greek letter for micro. */
+function plainUnit(unit: string): string {
+  return plainText(unit).trim().replace(/\*\*/g, "^").replace(/ *([/^]) */g, "$1").replace(/ *[·⋅∙*] *| +/g, "·").replaceAll("\u00b5", "\u03bc");
+}
+
+/** A mantissa, a power of ten (`e3`, `·10^3`, `×10**3`), and what follows. */
+const TYPED = /^([+-]? ?(?:\d+[.,]?\d*|[.,]\d+))(?:e([+-]?\d+)| *[×x*·⋅∙] *10 *(?:\^|\*\*)? *([+-]?\d+))?(.*)$/i;
+
+/** The number in what somebody typed: a comma is a decimal point, and the unit may follow. `null` for anything else. */
+export function parseTyped(text: string, unit: string): number | null {
+  const found = TYPED.exec(plainText(text).trim());
+  if (found === null) return null;
+  const [, mantissa = "", e = "", power = e, rest = ""] = found;
+  if (rest.trim() !== "" && plainUnit(rest) !== plainUnit(unit)) return null;
+  const value = Number(`${mantissa.replace(",", ".").replace(" ", "")}e${power === "" ? "0" : power}`);
+  return Number.isFinite(value) ? value : null;
+}
 
 /** A unit for readers: `m/s^2` with its exponent raised. */
 export function formatUnit(unit: string): string {

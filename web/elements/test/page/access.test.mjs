@@ -14,6 +14,14 @@ const server = await serve({
   "/arabic.html": pageOf(body, { head: `${head}<script>document.documentElement.dir = "rtl"</script>`, lang: "ar" }),
   "/autoplay.html": pageOf(labOf({ ...dropLab, autoplay: true }, { models: { drop } })),
 });
+const word = "Donaudampfschifffahrtsgesellschaftskapitänsmützenabzeichen_und_noch_viel_länger";
+const trace = { label: "t", expr: "data.time" };
+const wide = {
+  button: { controls: [{ type: "button", label: word, run: "ctx.x = 1" }] }, title: { title: word, kind: word }, note: { note: word },
+  "title of a plot": { plots: [{ ylabel: word, traces: [trace] }] }, "axis of a plot": { plots: [{ xlabel: word, ylabel: "y", traces: [trace] }] },
+  trace: { plots: [{ ylabel: "y", traces: [{ ...trace, label: word }] }] },
+};
+for (const [name, parts] of Object.entries(wide)) server.pages[`/${name}.html`] = pageOf(labOf({ model: "drop", height: 100, ...parts }, { models: { drop } }));
 const browser = await launch();
 const axe = readFileSync(join(root, "../node_modules/axe-core/axe.min.js"), "utf8");
 after(async () => {
@@ -158,8 +166,15 @@ test("without motion, a lab waits, and has larger steps", async (t) => {
   const { page, errors } = await open(t, "/autoplay.html", { reducedMotion: "reduce" });
   await page.waitForTimeout(300);
   assert.equal(await page.evaluate(() => document.querySelector("sim-lab").time), 0);
-  await page.getByRole("button", { name: "Step 0.1 s" }).click();
-  await page.waitForFunction(() => Math.abs(document.querySelector("sim-lab").time - 0.1) < 0.0021);
+  for (const time of [0.1, 0.2, 0.3]) {
+    await page.getByRole("button", { name: "Step 0.1 s" }).click();
+    await page.waitForFunction((t) => Math.abs(document.querySelector("sim-lab").time - t) < 1e-9, time);
+    // What is said is what is shown, not what was shown before.
+    await page.waitForFunction(([t, shown]) => {
+      const { shadowRoot, texts } = document.querySelector("sim-lab");
+      return shadowRoot.querySelector("[part=status]").textContent.startsWith(`Paused at ${t.toFixed(3)} s. height (m): ${texts[0]}; ${shown}`);
+    }, [time, "state: free"]);
+  }
   errors.none();
 });
 
@@ -186,4 +201,15 @@ test("touch: the page scrolls until the picture is tapped", chromiumOnly("Playwr
   await page.locator("h1").tap();
   await page.locator(".plot-stage").tap();
   errors.none();
+});
+
+test("a long word does not make a small page scroll sideways", async (t) => {
+  for (const name of Object.keys(wide)) {
+    const { page, errors } = await open(t, `/${name}.html`, { viewport: { width: 320, height: 700 } });
+    await page.locator("sim-lab details.plot-data").evaluateAll((all) => all.forEach((details) => {
+      details.open = true;
+    }));
+    assert.deepEqual(await page.evaluate(() => [document.scrollingElement.scrollWidth, document.scrollingElement.clientWidth]), [320, 320], name);
+    errors.none();
+  }
 });

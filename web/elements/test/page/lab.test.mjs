@@ -20,6 +20,11 @@ const server = await serve({
   "/models/parts/floor.xml": "<mujoco><worldbody><geom type='plane' size='1 1 1'/></worldbody></mujoco>",
   "/models/shapes/wedge.obj": "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n",
   "/pile.html": pageOf(labOf({ model: "pile", height: 160, controls: [{ label: "gravity", set: "model.opt.gravity[2]", min: -20, max: -1, step: 0.1, value: -9.8 }] }, { models: { pile } })),
+  "/order.html": pageOf(labOf({
+    model: "drop", controls: [{ label: "a", param: "a", min: 0, max: 10, value: 1 }, { type: "button", label: "Copy", run: "ctx.seen = ctx.a" }],
+    readouts: [{ label: "seen", expr: "ctx.seen || 0", digits: 0 }, { label: "a", expr: "ctx.a", digits: 0 }], plots: [{ ylabel: "h", traces: [{ label: "h", expr: "data.qpos[2]" }] }],
+  }, { models: { drop } })),
+  "/dark.html": pageOf(labOf(dropLab, { models: { drop }, attributes: 'theme="dark"' })),
   "/late.html": pageOf("<p>Nothing yet.</p>"),
 });
 const browser = await launch();
@@ -340,5 +345,59 @@ test("a trace can be heard while it is played, and not after the lab is closed",
   await button.click();
   await page.evaluate(() => document.querySelector("sim-lab").remove());
   await page.waitForFunction(() => globalThis.contexts.length === 2 && globalThis.contexts.every((context) => context.state === "closed"));
+  errors.none();
+});
+
+test("what is done after a control was moved comes after it", async (t) => {
+  const { page, errors } = await open(t, "/order.html");
+  await opened(page);
+  const seen = await page.evaluate(async () => {
+    const lab = document.querySelector("sim-lab");
+    const all = [];
+    for (const value of [2, 5]) {
+      for (const next of [value, value + 1, value + 2]) lab.set("a", next);
+      await lab.press("Copy");
+      all.push(lab.texts.join());
+    }
+    for (const next of [7, 8, 9]) lab.set("a", next);
+    const { actions } = JSON.parse(new TextDecoder().decode(await lab.saveState())).labspec;
+    all.push(actions.at(-1).join());
+    const last = lab.set("a", 3);
+    await Promise.all([lab.set("a", 4), lab.step(2), last]);
+    return [...all, lab.texts.join()];
+  });
+  assert.deepEqual(seen, ["4,4", "7,7", "set,a,9", "7,4"]);
+  errors.none();
+});
+
+test("a theme that is set on an open lab is that of its plots and its picture", async (t) => {
+  const plot = (page) => page.locator(".plot canvas").evaluate((canvas) => canvas.toDataURL());
+  const dark = await open(t, "/dark.html");
+  const { page, errors } = await open(t, "/drop.html");
+  for (const one of [dark.page, page]) {
+    await opened(one);
+    await one.waitForTimeout(1000);
+  }
+  const [light, picture] = [await plot(page), await page.locator(".view").screenshot()];
+  await page.evaluate(() => document.querySelector("sim-lab").setAttribute("theme", "dark"));
+  await page.waitForTimeout(500);
+  assert.notEqual(await plot(page), light);
+  assert.equal(await plot(page), await plot(dark.page));
+  assert.notDeepEqual(await page.locator(".view").screenshot(), picture);
+  errors.none();
+});
+
+test("a promise of an opening that was replaced is that of the next one", async (t) => {
+  const { page, errors } = await open(t, "/late.html");
+  const outcome = await page.evaluate(async ([lab, drop]) => {
+    await customElements.whenDefined("sim-lab");
+    const element = document.createElement("sim-lab");
+    element.lab = lab;
+    document.querySelector("main").append(element);
+    const { ready } = element;
+    element.models = { drop };
+    return Promise.race([ready.then(() => element.texts[0]), new Promise((resolve) => setTimeout(resolve, 5000, "not settled"))]);
+  }, [dropLab, drop]);
+  assert.equal(outcome, "1.000");
   errors.none();
 });

@@ -18,7 +18,16 @@ const quiz = {
     { q: "A broken one", options: ["a"] },
   ],
 };
+const slow = {
+  id: "slow", questions: [
+    { kind: "predict", q: "Up or down?", options: ["up", "down"], answer: 1, explain: "<p>Down.</p>", sim: { model: "drop", stopAt: 1.5, readouts: [{ label: "z", expr: "data.qpos[2]" }] } },
+    { kind: "multiple", q: "Which of these?", options: ["a", "b", "c"], hash: { salt: "s", sha256: createHash("sha256").update("s:0,2").digest("hex") } },
+    { q: "Which one?", options: ["a", "b", "c"], answer: 2, attempts: 3 },
+    { kind: "numeric", q: "How fast does it get faster?", answer: 1998, tol: 1, unit: "m/s^2", attempts: 1 },
+  ],
+};
 const server = await serve({
+  "/slow.html": pageOf(`<lesson-quiz><script type="application/json">${JSON.stringify(slow).replaceAll("</", "<\\/")}</script><script type="model/mjcf" data-name="drop">${drop}</script></lesson-quiz>`),
   "/quiz.html": pageOf(`<lesson-quiz><script type="application/json">${JSON.stringify(quiz).replaceAll("</", "<\\/")}</script><script type="model/mjcf" data-name="drop">${drop}</script></lesson-quiz>`),
 });
 const browser = await launch();
@@ -27,7 +36,7 @@ after(async () => {
   server.close();
 });
 
-async function open(t, options = {}) {
+async function open(t, options = {}, path = "/quiz.html") {
   const context = await newContext(browser, options);
   t.after(() => context.close());
   const page = await context.newPage();
@@ -36,7 +45,7 @@ async function open(t, options = {}) {
     globalThis.answers = [];
     document.addEventListener("quiz-answer", (e) => globalThis.answers.push(e.detail));
   });
-  await page.goto(`${server.url}/quiz.html`);
+  await page.goto(server.url + path);
   await page.locator(".question").first().waitFor();
   return { page, errors, question: (i) => page.locator("article.quiz > .question, article.quiz > .broken").nth(i) };
 }
@@ -144,5 +153,112 @@ test("by keyboard alone, in German", async (t) => {
   await page.keyboard.press("Tab");
   await page.keyboard.press("Enter");
   assert.match(await question(0).locator(".badge").innerText(), /^Richtig/);
+  errors.none();
+});
+
+test("a prediction counts when its verdict is shown, and not before", async (t) => {
+  const { page, errors, question } = await open(t, {}, "/slow.html");
+  const predict = question(0);
+  const commit = async () => {
+    await predict.getByRole("radio", { name: "down" }).check();
+    await predict.getByRole("button", { name: "Commit" }).click();
+  };
+  await commit();
+  await page.waitForTimeout(200);
+  assert.equal(await page.locator(".score").innerText(), "");
+  assert.deepEqual(await page.evaluate(() => globalThis.answers), []);
+  // It is committed all the same: a reload does not take it back, and the lab runs again.
+  await page.reload();
+  await predict.getByText("Watch what happens").waitFor();
+  assert.ok(await predict.getByRole("radio", { name: "up" }).isDisabled());
+  assert.equal(await page.locator(".score").innerText(), "");
+  await predict.locator(".badge").waitFor();
+  assert.match(await page.locator(".score").innerText(), /1 of 4 correct/);
+  assert.deepEqual((await page.evaluate(() => globalThis.answers)).map(({ index, correct }) => [index, correct]), [[0, true]]);
+  await page.reload();
+  await predict.locator(".badge").waitFor();
+  assert.deepEqual(await page.evaluate(() => globalThis.answers), [], "the answer is not given again");
+  errors.none();
+});
+
+test("a quiz that is cleared or taken away while its lab runs stops watching", async (t) => {
+  for (const leave of [
+    (page) => page.evaluate(() => document.querySelector("lesson-quiz").remove()),
+    (page) => page.evaluate(() => document.querySelector("lesson-quiz").setAttribute("lang", "de")),
+  ]) {
+    const { page, errors, question } = await open(t, {}, "/slow.html");
+    await question(0).getByRole("radio", { name: "down" }).check();
+    await question(0).getByRole("button", { name: "Commit" }).click();
+    await question(0).locator("sim-lab").evaluate((lab) => lab.ready);
+    await leave(page);
+    await page.waitForTimeout(500);
+    const looks = await page.evaluate(async () => {
+      // What is taken away now was the last quiz of the page.
+      document.querySelector("lesson-quiz")?.remove();
+      await new Promise((resolve) => setTimeout(resolve, 400));
+      let looks = 0;
+      const { prototype } = customElements.get("sim-lab");
+      const { get } = Object.getOwnPropertyDescriptor(prototype, "isOver");
+      Object.defineProperty(prototype, "isOver", { configurable: true, get() {
+        looks++;
+        return get.call(this);
+      } });
+      await new Promise((resolve) => setTimeout(resolve, 800));
+      return looks;
+    });
+    assert.equal(looks, 0);
+    errors.none();
+  }
+});
+
+test("marks: none on an option that may be right, and none after another choice", async (t) => {
+  const { errors, question } = await open(t, {}, "/slow.html");
+  const marks = (i) => question(i).locator(".option").evaluateAll((rows) => rows.map((row) => `${row.classList.contains("right") ? "right" : row.classList.contains("wrong") ? "wrong" : ""}${row.querySelectorAll(".icon").length}`));
+  for (const name of ["a", "b"]) await question(1).getByRole("checkbox", { name, exact: true }).check();
+  await question(1).getByRole("button", { name: "Check" }).click();
+  assert.match(await question(1).locator(".badge").innerText(), /Not correct/);
+  assert.deepEqual(await marks(1), ["0", "0", "0"], "a is right, and b is not: the hash does not tell which");
+  await question(2).getByRole("radio", { name: "a", exact: true }).check();
+  await question(2).getByRole("button", { name: "Check" }).click();
+  assert.deepEqual(await marks(2), ["wrong1", "0", "0"]);
+  await question(2).getByRole("radio", { name: "c", exact: true }).check();
+  assert.deepEqual(await marks(2), ["0", "0", "0"]);
+  await question(2).getByRole("button", { name: "Check" }).click();
+  assert.deepEqual(await marks(2), ["0", "0", "right1"]);
+  errors.none();
+});
+
+test("the focus stays in the quiz when a control of it goes", async (t) => {
+  const { page, errors, question } = await open(t);
+  const focus = () => page.evaluate(() => {
+    const { activeElement } = document.querySelector("lesson-quiz").shadowRoot;
+    return activeElement === null ? "nothing" : activeElement.matches("input") ? `input ${activeElement.type}` : activeElement.className;
+  });
+  await question(0).getByRole("radio", { name: "cork" }).check();
+  await question(0).getByRole("button", { name: "Check" }).press("Enter");
+  assert.equal(await focus(), "verdict-area");
+  for (const text of ["1", "2"]) {
+    await question(3).getByRole("textbox").fill(text);
+    await question(3).getByRole("textbox").press("Enter");
+    assert.equal(await focus(), text === "1" ? "input text" : "verdict-area", "a further try keeps the focus on the input");
+  }
+  await question(5).getByRole("radio", { name: "On the floor" }).check();
+  await question(5).getByRole("button", { name: "Commit" }).press("Enter");
+  assert.equal(await focus(), "verdict-area");
+  await question(5).getByRole("button", { name: "Show the verdict" }).press("Enter");
+  await question(5).locator(".badge").waitFor();
+  assert.equal(await focus(), "verdict-area");
+  await page.getByRole("button", { name: "Clear my answers" }).press("Enter");
+  await page.waitForFunction(() => document.querySelector("lesson-quiz").shadowRoot.querySelector(".badge") === null);
+  assert.equal(await focus(), "input radio");
+  errors.none();
+});
+
+test("a number is shown with its digits and its unit as people write it", async (t) => {
+  const { errors, question } = await open(t, {}, "/slow.html");
+  assert.equal(await question(3).locator(".unit").innerText(), "m/s²");
+  await question(3).getByRole("textbox", { name: "in m/s²" }).fill("2,0·10³ m/s²");
+  await question(3).getByRole("button", { name: "Check" }).click();
+  assert.match(await question(3).locator(".verdict").innerText(), /Correct answer: 1998 m\/s²/);
   errors.none();
 });
