@@ -215,6 +215,12 @@ impl<'a> BoundVerify<'a> {
         })
     }
 
+    /// Names and texts of the measures.
+    pub(super) fn measure_texts(&self) -> impl Iterator<Item = (&str, &str)> {
+        let measures = self.scenes.iter().flat_map(|scene| &scene.measures);
+        measures.map(|(name, measure)| (*name, measure.text.as_str()))
+    }
+
     /// Calls `work` with the first lab in its initial state, for expressions over measures: they read nothing of its data.
     pub(super) fn idle<T>(&self, work: impl FnOnce(&mut Session<'a>) -> T) -> Option<T> {
         self.idle_in(0, work)

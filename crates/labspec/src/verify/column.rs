@@ -1,6 +1,7 @@
 //! Columns of tables: every cell is a quoted number or a word, and the row determines the member of a sweep that the cell
 //! describes.
 
+use super::bound::BoundVerify;
 use super::claim::with_suffix;
 use super::format::significant;
 use super::grounded::grounded_value;
@@ -47,7 +48,7 @@ pub(super) fn check_column(
             return vec![refused(&claim.column, finding, findings)];
         }
     };
-    if let Some(finding) = computing_heading(claim) {
+    if let Some(finding) = computing_heading(checker.bound, claim) {
         return vec![refused(&claim.column, finding, findings)];
     }
     let unit = quote::unit_of_head(claim.column.as_str());
@@ -77,7 +78,7 @@ pub(super) fn check_column(
 
 /// The finding about a heading that computes with a measure, where the expression for its cells does not: the cells of
 /// `1000 t (s)` are not `t`.
-fn computing_heading(claim: &Column) -> Option<Finding> {
+fn computing_heading(bound: &BoundVerify<'_>, claim: &Column) -> Option<Finding> {
     // For a cell that is given by its number, `column` is a text in its row.
     let number = match &claim.is {
         Stands::Number(expr) if claim.cell.is_none() => Some((&claim.column, expr)),
@@ -86,7 +87,7 @@ fn computing_heading(claim: &Column) -> Option<Finding> {
     let key = claim.by.as_ref().map(|(heading, list)| (heading, list));
     let mut columns = number.into_iter().chain(key);
     columns.find_map(|(heading, expr)| {
-        let operation = quote::operation_in_heading(heading.as_str()).filter(|_| !computes(&expr.value))?;
+        let operation = quote::operation_in_heading(heading.as_str()).filter(|_| !computes(bound, &expr.value))?;
         let message = format!("the heading says \"{operation}\", but the expression is `{}`", expr.value.trim());
         Some(
             Finding::error(rules::QUOTE_UNCLEAR, heading.span(), message)
@@ -97,9 +98,15 @@ fn computing_heading(claim: &Column) -> Option<Finding> {
     })
 }
 
-/// Whether an expression computes with what it reads.
-fn computes(expr: &str) -> bool {
-    expr.contains(['+', '-', '*', '/', '%']) || expr.contains("Math.") || expr.contains("lib.")
+/// Whether an expression, or a measure that it reads, computes: `v2`, where `v2` is `final(data.qvel[0]) ** 2`.
+fn computes(bound: &BoundVerify<'_>, expr: &str) -> bool {
+    let multiplies =
+        |text: &str| text.contains(['*', '/']) || text.contains("Math.") || text.contains("lib.");
+    let is_read =
+        |name: &str| expr.split(|c: char| !c.is_alphanumeric() && c != '_').any(|word| word == name);
+    expr.contains(['+', '-', '%'])
+        || multiplies(expr)
+        || bound.measure_texts().any(|(name, text)| multiplies(text) && is_read(name))
 }
 
 /// The values of the sweep whose list a cell states, where the claim names a row only: the row tells the member.
@@ -320,7 +327,7 @@ mod tests {
     fn codes(heading: &str, is: &str, cell: &str) -> Vec<&'static str> {
         let xml = "<mujoco><option timestep='0.001'/><worldbody><body pos='0 0 1'><freejoint/><geom size='.05'/></body></worldbody></mujoco>";
         let lab = serde_json::json!({"stopAt": 1, "xml": xml, "readouts": [{"label": "height (m)", "expr": "data.qpos[2]"}],
-            "verify": {"measure": {"t": "crossing(data.qpos[2])"}, "table": [{"column": heading, "row": "Earth", "is": is}]}});
+            "verify": {"measure": {"t": "crossing(data.qpos[2])", "t2": "crossing(data.qpos[2]) ** 2"}, "table": [{"column": heading, "row": "Earth", "is": is}]}});
         let text =
             format!("```lab simlab\n{lab}\n```\n\n| planet | {heading} |\n|---|---|\n| Earth | {cell} |\n");
         let report = crate::Checker::new(|_: &str| None::<String>).check("fall.md", &text);
@@ -344,5 +351,7 @@ mod tests {
         assert_eq!(codes("1/time", "t", "0.451"), ["quote-unclear"]);
         assert_eq!(codes("time (s)", "t", "0.451"), [""; 0]);
         assert_eq!(codes("1000 t", "1000 * t", "451"), [""; 0]);
+        // The measure itself is the square.
+        assert_eq!(codes("t² (s²)", "t2", "0.203"), [""; 0]);
     }
 }
