@@ -364,7 +364,7 @@ fn angles_of_controls_are_used_as_angles() {
 #[test]
 fn controls_with_exchanged_bodies_are_reported() {
     let sliders = |a: (&str, &str), b: (&str, &str)| {
-        let control = |(label, text): (&str, &str)| serde_json::json!({"label": label, "unit": "kg", "apply": text, "min": 1, "max": 2, "value": 1});
+        let control = |(label, text): (&str, &str)| serde_json::json!({"label": label, "apply": text, "min": 1, "max": 2, "value": 1});
         reported(&format!("\"controls\": [{}, {}]", control(a), control(b)))
     };
     let (left, right) =
