@@ -14,7 +14,8 @@ use labspec_expr::Schema;
 use labspec_expr::dimension::Measure;
 use std::fmt::Write;
 
-const CODES: [&str; 3] = ["label-unit", "mixed-dimensions", "label-names-another"];
+const CODES: [&str; 5] =
+    ["label-unit", "mixed-dimensions", "label-names-another", "degrees-for-radians", "quaternion-as-angle"];
 
 fn word(measure: &Measure) -> String {
     match measure {
@@ -85,6 +86,11 @@ fn every_expression_has_a_dimension_or_is_unknown() {
 
 /// The findings of a lab with a model with two slides, `left` and `right`, a hinge `door` and a ball `ball`.
 fn reported(keys: &str) -> Vec<String> {
+    checked(keys).into_iter().filter(|f| CODES.contains(&f.code)).map(|f| f.message).collect()
+}
+
+/// All findings of such a lab, none of which may be an error.
+fn checked(keys: &str) -> Vec<labspec::Finding> {
     let body = |name: &str, joint: &str| {
         format!(
             "<body name='{name}'><joint name='{name}' type='{joint}' axis='0 1 0'/><geom size='.1'/></body>"
@@ -106,7 +112,7 @@ fn reported(keys: &str) -> Vec<String> {
     let checked = check::check_lesson(lesson, &Models::new(folder), depth);
     let errors: Vec<_> = checked.findings.iter().filter(|f| f.is_error()).collect();
     assert!(errors.is_empty(), "{keys}: {errors:#?}");
-    checked.findings.into_iter().filter(|f| CODES.contains(&f.code)).map(|f| f.message).collect()
+    checked.findings
 }
 
 fn readout(label: &str, expr: &str) -> Vec<String> {
@@ -124,6 +130,9 @@ fn contradicting_units_are_reported() {
         ("angle (rad)", "data.qpos[2] * 180 / Math.PI", "deg"),
         ("angle (rad)", "lib.deg(data.joint('door').qpos[0])", "deg"),
         ("angle [°]", "Math.atan2(data.qpos[0], data.qpos[1])", "rad"),
+        ("angle (deg)", "lib.deg(data.qvel[2])", "deg/s"),
+        ("angle (deg)", "data.qvel[2] * 180 / Math.PI", "deg/s"),
+        ("rate (deg/s)", "lib.deg(data.qpos[2])", "deg"),
         ("turns (Hz)", "data.qvel[2]", "rad/s"),
         ("height (m)", "data.qpos[6]", "1"),
         ("speed (m/s)", "data.qvel[2]", "rad/s"),
@@ -156,6 +165,9 @@ fn possibly_correct_units_are_not_reported() {
         ("arc (m)", "data.qpos[2] * data.qpos[0]"),
         ("angle (deg)", "180 / Math.PI * data.qpos[2]"),
         ("angle (deg)", "lib.deg(data.qpos[2])"),
+        ("rate (deg/s)", "lib.deg(data.qvel[2])"),
+        ("angle (deg)", "lib.deg(2 * data.time)"),
+        ("angle (deg)", "180 / Math.PI * data.time"),
         ("E (J)", "0.5 * model.body_mass[1] * data.qvel[0] ** 2"),
         ("E (J)", "lib.energy().total"),
         ("ball(s)", "data.qpos[0]"),
@@ -265,6 +277,108 @@ fn controls_are_compared_with_the_fields_that_they_set() {
         ("times", "set", "model.body_mass[1]"),
     ] {
         assert_eq!(slider(unit, key, text), Vec::<String>::new(), "{unit} {text}");
+    }
+}
+
+/// A conversion is proposed only where it gives what the label says.
+#[test]
+fn only_a_scaled_quantity_is_converted() {
+    for (label, expr, converts) in [
+        ("angle (deg)", "data.qpos[2]", true),
+        ("angle (deg)", "data.qvel[2]", false),
+        ("x (mm)", "data.qpos[0]", true),
+    ] {
+        let checked =
+            checked(&format!("\"readouts\": [{}]", serde_json::json!({"label": label, "expr": expr})));
+        let found = checked.iter().find(|f| f.code == "label-unit").unwrap();
+        let help = found.help.as_deref().unwrap();
+        assert_eq!(help.contains("which converts the number"), converts, "{label}, {expr}: {help}");
+    }
+}
+
+/// A control that stores its value in `ctx` is compared with what other programs make of it.
+#[test]
+fn parameters_are_compared_with_the_fields_that_programs_set() {
+    let slider = |unit: &str, key: &str, text: &str| {
+        let control =
+            serde_json::json!({"label": "c", "unit": unit, "param": "a", "min": 0, "max": 1, "value": 0});
+        reported(&format!("\"controls\": [{control}], {key}: {}", serde_json::json!(text)))
+    };
+    for (unit, key, text) in [
+        ("°", "\"setup\"", "data.qpos[2] = ctx.a"),
+        ("°", "\"setup\"", "data.qpos[2] = -ctx.a"),
+        ("°", "\"controller\"", "data.ctrl[1] = ctx.a"),
+        ("mm", "\"setup\"", "data.qpos[0] = ctx.a"),
+        ("km/h", "\"setup\"", "data.qvel[0] = ctx.a"),
+        ("°", "\"setup\"", "data.qvel[0] = 3 * Math.sin(ctx.a)"),
+        ("°", "\"controller\"", "data.ctrl[0] = Math.cos(ctx.a + 0.1)"),
+        ("°/s", "\"controller\"", "data.ctrl[0] = Math.sin(ctx.a * data.time)"),
+        ("°", "\"setup\"", "ctx.b = lib.deg(ctx.a)"),
+    ] {
+        let found = slider(unit, key, text);
+        assert_eq!(found.len(), 1, "{unit} {text}: {found:?}");
+    }
+    for (unit, key, text) in [
+        ("°", "\"setup\"", "data.qpos[2] = lib.rad(ctx.a)"),
+        ("°", "\"setup\"", "data.qpos[2] = ctx.a * Math.PI / 180"),
+        ("°", "\"setup\"", "const a = ctx.a / 180 * Math.PI; data.qpos[2] = a; data.qvel[0] = Math.sin(a)"),
+        (
+            "°",
+            "\"setup\"",
+            "ctx.a = ctx.a * Math.PI / 180; data.qpos[2] = ctx.a; data.qvel[0] = Math.sin(ctx.a)",
+        ),
+        ("rad", "\"setup\"", "data.qpos[2] = ctx.a; data.qvel[0] = Math.sin(ctx.a)"),
+        ("mm", "\"setup\"", "data.qpos[0] = ctx.a / 1000"),
+        ("m", "\"setup\"", "data.qpos[0] = 0.001 * ctx.a"),
+        ("rad", "\"controller\"", "data.ctrl[0] = ctx.a - data.qpos[2]"),
+        ("%", "\"controller\"", "data.ctrl[0] = ctx.a"),
+        ("Hz", "\"controller\"", "data.ctrl[0] = Math.sin(2 * Math.PI * ctx.a * data.time)"),
+    ] {
+        assert_eq!(slider(unit, key, text), Vec::<String>::new(), "{unit} {text}");
+    }
+}
+
+/// A control that takes degrees must not pass them to `Math.sin`, nor an angle to a quaternion.
+#[test]
+fn angles_of_controls_are_used_as_angles() {
+    let slider = |unit: &str, text: &str| {
+        let control =
+            serde_json::json!({"label": "c", "unit": unit, "apply": text, "min": 0, "max": 1, "value": 0});
+        reported(&format!("\"controls\": [{control}]"))
+    };
+    for (unit, text, count) in [
+        ("°", "data.qvel[0] = 3 * Math.sin(value)", 1),
+        ("°", "data.qvel[0] = 3 * Math.sin(lib.rad(value))", 0),
+        ("rad", "data.qvel[0] = 3 * Math.sin(value)", 0),
+        ("rad", "data.qpos[7] = value", 1),
+        ("°", "data.qpos[7] = value", 1),
+        ("rad", "data.qpos[7] = Math.sin(value / 2)", 0),
+        ("rad", "data.qpos[7] = 0.5 * value", 0),
+        ("rad", "data.qpos[2] = value", 0),
+    ] {
+        let found = slider(unit, text);
+        assert_eq!(found.len(), count, "{unit} {text}: {found:?}");
+    }
+}
+
+#[test]
+fn controls_with_exchanged_bodies_are_reported() {
+    let sliders = |a: (&str, &str), b: (&str, &str)| {
+        let control = |(label, text): (&str, &str)| serde_json::json!({"label": label, "apply": text, "min": 1, "max": 2, "value": 1});
+        reported(&format!("\"controls\": [{}, {}]", control(a), control(b)))
+    };
+    let (left, right) =
+        ("model.body_mass[1] = value; mj.mj_setConst(model, data)", "model.body_mass[2] = value");
+    let found = sliders(("mass left", right), ("mass right", left));
+    assert_eq!(found, ["the label names the body \"left\", but the control sets the body \"right\""]);
+    for (a, b) in [
+        (("mass left", left), ("mass right", right)),
+        (("mass left", right), ("mass right", right)),
+        (("mass left", right), ("size right", left)),
+        (("mass of this", right), ("mass of that", left)),
+        (("push left", "data.xfrc_applied[12] = value"), ("push right", "data.xfrc_applied[6] = value")),
+    ] {
+        assert_eq!(sliders(a, b), Vec::<String>::new(), "{a:?} {b:?}");
     }
 }
 

@@ -178,13 +178,56 @@ const QUATERNION: AngleAdvice = AngleAdvice {
     help: "write the whole angle as `2 * Math.acos(w)`, with w the first of the four numbers",
 };
 
-/// The role of an element: an angle, a component of a quaternion, or neither.
+/// An element of a rotation matrix is not an angle.
+const MATRIX: AngleAdvice = AngleAdvice {
+    rule: QUATERNION_AS_ANGLE,
+    what: "an element of a rotation matrix",
+    why: "it is the cosine of the angle between an axis of the object and an axis of the world",
+    help: "write `Math.acos(…)` of it for that angle, or `Math.atan2` of two elements for a rotation about an axis",
+};
+
+/// The code of sensors that measure a quaternion, in `sensor_datatype`.
+const QUATERNION_SENSOR: i32 = 3;
+
+/// The role of an element: an angle, a component of a quaternion, an element of a rotation matrix, or none of them.
 pub(super) fn role(m: &Model, f: FieldId, index: usize) -> Role {
-    if f != data::qpos {
-        return Role::Other;
+    let width = reflect::shape(m, f).get(1).copied().flatten();
+    let name = f.info().name;
+    match f {
+        data::qpos => coordinate_role(m, index),
+        // A spring may be wound by more than a turn, so that its angle is not compared with degrees.
+        model::qpos0 | model::qpos_spring | model::key_qpos => match width {
+            Some(0) => Role::Other,
+            Some(width) => no_angle(coordinate_role(m, index % width)),
+            None => no_angle(coordinate_role(m, index)),
+        },
+        data::sensordata => match owner(m, f, index) {
+            Some((Obj::Sensor, s)) if m.sensor_datatype.get(s) == Some(&QUATERNION_SENSOR) => {
+                Role::NoAngle(&QUATERNION)
+            }
+            _ => Role::Other,
+        },
+        _ if name.contains("quat") && shape_ends_with(m, f, 4) => Role::NoAngle(&QUATERNION),
+        _ if name.contains("mat") && shape_ends_with(m, f, 9) => Role::NoAngle(&MATRIX),
+        _ => Role::Other,
     }
-    let Some((Obj::Joint, object)) = owner(m, f, index) else { return Role::Other };
-    let Some((first, _)) = row(m, f, Obj::Joint, object) else { return Role::Other };
+}
+
+/// Whether each row of a field has this many numbers.
+fn shape_ends_with(m: &Model, f: FieldId, width: usize) -> bool {
+    let shape = reflect::shape(m, f);
+    shape.len() > 1 && shape.last() == Some(&Some(width))
+}
+
+/// The same role without that of an angle.
+fn no_angle(role: Role) -> Role {
+    if role == Role::Angle { Role::Other } else { role }
+}
+
+/// The role of a coordinate of a joint.
+fn coordinate_role(m: &Model, index: usize) -> Role {
+    let Some((Obj::Joint, object)) = owner(m, data::qpos, index) else { return Role::Other };
+    let Some((first, _)) = row(m, data::qpos, Obj::Joint, object) else { return Role::Other };
     match m.jnt_type.get(object) {
         Some(&joint::HINGE) => Role::Angle,
         Some(&joint::FREE) if index - first >= 3 => Role::NoAngle(&QUATERNION),

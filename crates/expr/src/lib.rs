@@ -58,7 +58,7 @@ mod tests;
 #[path = "../../../tests/zz.rs"]
 mod zz;
 
-pub use analysis::measure::{DimensionClash, DimensionStore, KnownDimensions, TextDimensions};
+pub use analysis::measure::{AngleArgument, DimensionClash, DimensionStore, KnownDimensions, TextDimensions};
 pub use bind::{Compiled, Compiler};
 pub use chain::{FieldMention, NamedObject, chain_at, fields_in, names_in, texts_in, variables_of};
 pub use columnar::{Columnar, Foreign, Recording};

@@ -30,6 +30,19 @@ fn conditions_and_loops() {
     assert_eq!(world.fields[9], [7.0; 4]);
 }
 
+/// A function of the host is a value where a method calls it for every element, and it may get another name.
+#[test]
+fn functions_of_the_host_as_callbacks() {
+    check_rows(&[
+        ("ctx.out = ['heavy', 'light'].map(bodyId)", "1,2"),
+        ("ctx.out = ['heavy', 'light'].map(n => bodyId(n))", "1,2"),
+        ("ctx.out = Array.from(['light'], bodyId)", "2"),
+        ("ctx.out = [[3, 4], [6, 8]].map(norm).join()", "5,10"),
+        ("ctx.out = ['heavy', 'world'].filter(bodyId)", "heavy"),
+        ("const id = bodyId; ctx.out = id('light') + ['heavy'].map(id)[0]", "3"),
+    ]);
+}
+
 #[test]
 fn functions() {
     check_rows(&[

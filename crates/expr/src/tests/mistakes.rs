@@ -227,6 +227,7 @@ mistakes! {
     spread_into_a_function: statements("mj.mj_setConst(...[model, data])");
     function_that_gets_more: expression("[1, 4].reduce(Math.max)");
     function_of_one_argument: expression("[1, 4].map(Math.sqrt).join() + ['1', '2'].map(Number).join()");
+    host_function_without_values: expression("[1, 4].map(mj.mj_setConst)");
     map_without_a_function: expression("data.qpos.map(2)[0]");
     reduce_without_anything: expression("data.qpos.reduce()");
     misspelt_method: expression("[1, 2].psuh(3)");

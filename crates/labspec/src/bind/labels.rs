@@ -88,11 +88,12 @@ pub(crate) fn contradicts(found: &Dimension, unit: &Dimension) -> bool {
         return false;
     }
     if !found.agrees(unit) {
-        // The factor 1000 for millimetres, or that of degrees, is a conversion, not a quantity.
-        let converts = unit.factor != 1.0
-            && (is_power_of_ten(unit.factor) || unit.has_angle() && is_degrees(unit.factor))
-            && (factor / unit.factor.abs() - 1.0).abs() < 1e-9;
-        return found.is_exact() || converts;
+        // The factor 1000 for millimetres is a conversion, not a quantity, and so is that of degrees.
+        let difference = (factor / unit.factor.abs() - 1.0).abs();
+        let of_length = unit.factor != 1.0 && is_power_of_ten(unit.factor) && difference < 1e-9;
+        let has_angle = found.has_angle() || unit.has_angle();
+        let of_angle = has_angle && is_degrees(unit.factor.abs()) && difference < 1e-3;
+        return found.is_exact() || of_length || of_angle;
     }
     let ratio = factor / unit.factor.abs();
     if (ratio - 1.0).abs() < 1e-3 {
@@ -119,6 +120,12 @@ fn is_power_of_ten(x: f64) -> bool {
 fn is_degrees(factor: f64) -> bool {
     let degrees = 1f64.to_degrees();
     (factor / degrees - 1.0).abs() < 1e-3 || (factor * degrees - 1.0).abs() < 1e-3
+}
+
+/// Whether numbers of a dimension are an angle in degrees.
+pub(crate) fn in_degrees(d: &Dimension) -> bool {
+    let near = (d.factor.abs() / 1f64.to_degrees() - 1.0).abs() < 1e-3;
+    d.has_angle() && d.agrees(&Dimension::RADIAN) && near
 }
 
 #[cfg(test)]
@@ -180,6 +187,11 @@ mod tests {
             (d("m", 1000.0), "mm", false),
             (d("m", 1000.0), "m", true),
             (d("1", 1000.0), "mm", true),
+            (d("deg/s", 1.0), "deg", true),
+            (d("deg", 1.0), "deg/s", true),
+            // A literal factor may be a speed in deg/s.
+            (d("s", 1f64.to_degrees()), "deg", false),
+            (d("deg/s", 2.0), "deg", false),
             (d("s", 50.0), "mm", false),
             (d("m", 2.0), "m", false),
             (d("m", 2.0), "mm", true),

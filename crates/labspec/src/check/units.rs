@@ -15,6 +15,7 @@ pub(super) fn check_units(lab: &Lab, model: &Model, programs: &Programs, finding
     for ((labels, probe), measured) in labels(lab).zip(&programs.probes).zip(&found.probes) {
         let (Some(bound), Some(measured)) = (&probe.bound, measured) else { continue };
         findings.extend(mixed_dimensions::clashes(bound, measured, Severity::Warning));
+        label_unit::degrees_passed(bound, measured, findings);
         let Measure::Dimension(dimension) = measured.value else { continue };
         findings.extend(label_unit::wrong_label(&labels, model, bound, &dimension));
     }
@@ -24,11 +25,18 @@ pub(super) fn check_units(lab: &Lab, model: &Model, programs: &Programs, finding
     for ((control, (_, program)), measured) in controls {
         let (Some(bound), Some(measured)) = (bound_of(program), measured) else { continue };
         findings.extend(mixed_dimensions::clashes(bound, measured, Severity::Note));
-        findings.extend(label_unit::wrong_control(control, &names, bound, measured));
+        label_unit::degrees_passed(bound, measured, findings);
+        findings.extend(
+            label_unit::angle_in_quaternion(control, &names, bound, measured)
+                .or_else(|| label_unit::wrong_control(control, &names, bound, measured))
+                .or_else(|| label_unit::unconverted_parameter((lab, programs), &names, bound, measured)),
+        );
     }
     for (bound, measured) in [&programs.setup, &programs.controller].into_iter().zip(&found.others) {
         if let (Some(bound), Some(measured)) = (bound, measured) {
             findings.extend(mixed_dimensions::clashes(bound, measured, Severity::Note));
+            label_unit::degrees_passed(bound, measured, findings);
+            findings.extend(label_unit::unconverted_parameter((lab, programs), &names, bound, measured));
         }
     }
 }

@@ -2,8 +2,9 @@ use crate::bind::{Bound, ControlProgram, Programs};
 use crate::source::Text;
 use crate::spec::{Lab, Trace};
 use labspec_bind::element_owner;
-use labspec_core::reflect::{self, Object};
+use labspec_core::reflect::{self, FieldId, Object};
 use labspec_core::{Model, Obj};
+
 use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 use std::collections::BTreeSet;
 
@@ -93,6 +94,7 @@ pub(crate) fn check_names(lab: &Lab, model: &Model, programs: &Programs, finding
         };
         findings.extend(bound.and_then(|bound| quotes_another(&control.label, bound, model)));
     }
+    exchanged_controls(lab, model, programs, findings);
     for one in &displays {
         let ([name], Some(&body)) = (one.names.as_slice(), one.bodies.first()) else { continue };
         let Some(named) = all.get(*name).filter(|n| n.body != body && one.bodies.len() == 1) else {
@@ -177,6 +179,71 @@ fn quotes_another(label: &Text, bound: &Bound, model: &Model) -> Option<Finding>
             .help("write the element that the label names, or correct the label")
             .related(bound.text.span(), "the control writes this"),
     )
+}
+
+/// The most controls that are compared in pairs.
+const MAX_CONTROLS: usize = 60;
+
+/// A control that sets elements of the model that belong to one body.
+struct SettingControl<'l> {
+    label: &'l Text,
+    bound: &'l Bound,
+    words: Vec<String>,
+    body: usize,
+}
+
+/// Reports two controls whose labels differ in one name, each of which sets the model's elements of the body that the other one names.
+fn exchanged_controls(lab: &Lab, model: &Model, programs: &Programs, findings: &mut Vec<Finding>) {
+    let bodies = model.names.of_kind(Obj::Body);
+    let controls: Vec<SettingControl<'_>> = lab
+        .controls
+        .iter()
+        .zip(&programs.controls)
+        .take(MAX_CONTROLS)
+        .filter_map(|(control, (_, program))| {
+            let ControlProgram::Change(_, action) = program else { return None };
+            let bound = action.run.as_ref()?;
+            let body = body_set_by(bound, model)?;
+            Some(SettingControl { label: &control.label, bound, words: words_of(control.label.as_str()), body })
+        })
+        .collect();
+    let named = |word: &str| bodies.iter().position(|name| split_words(name) == [word]);
+    for (i, one) in controls.iter().enumerate() {
+        for other in controls.iter().skip(i + 1).filter(|other| other.words.len() == one.words.len()) {
+            let mut different = one.words.iter().zip(&other.words).filter(|(a, b)| a != b);
+            let (Some((a, b)), None) = (different.next(), different.next()) else { continue };
+            if named(a) != Some(other.body) || named(b) != Some(one.body) {
+                continue;
+            }
+            let name = |body: usize| bodies.get(body).map_or("", String::as_str);
+            let message = format!(
+                "the label names the body \"{}\", but the control sets the body \"{}\"",
+                name(other.body),
+                name(one.body)
+            );
+            findings.push(
+                Finding::new(LABEL_NAMES_ANOTHER, one.label.span(), message)
+                    .help("set the body that the label names; this control and the other one are exchanged")
+                    .related(one.bound.text.span(), format!("this belongs to \"{}\"", name(one.body)))
+                    .related(other.label.span(), "the other control"),
+            );
+        }
+    }
+}
+
+/// The only body whose elements of the model a program sets; `None` if it sets anything else.
+fn body_set_by(bound: &Bound, model: &Model) -> Option<usize> {
+    let effects = bound.program.effects();
+    if effects.writes_everything || effects.any_ctx || effects.calls_values || !effects.ctx_writes.is_empty() {
+        return None;
+    }
+    let mut all = bound.program.own_writes().into_iter().map(|write| {
+        FieldId::new(write.field.0 as usize).filter(|f| f.info().object == Object::Model)?;
+        let (kind, index) = element_owner(model, write.field, write.first, write.count?)?;
+        body_of(model, kind, index)
+    });
+    let first = all.next()??;
+    all.all(|body| body == Some(first)).then_some(first)
 }
 
 /// Reports a trace that has the name of an object of the model, but is a constant.

@@ -1,15 +1,16 @@
 use super::label_names_another::names;
-use crate::bind::{Bound, contradicts, given_by, of_label, unit};
+use crate::bind::{Bound, ControlProgram, Programs, contradicts, given_by, in_degrees, of_label, unit};
 use crate::check::observations::{ObservedLab, column};
 use crate::json::read::shorten;
 use crate::run::Cell;
 use crate::source::Text;
-use crate::spec::{Control, ControlKind, Plot, Readout};
+use crate::spec::{Control, ControlKind, Lab, Plot, Readout};
 use labspec_bind::units::written;
 use labspec_core::Model;
 use labspec_core::reflect::FieldId;
 use labspec_expr::dimension::{Dimension, Measure};
-use labspec_expr::{Schema, TextDimensions};
+use labspec_expr::rules::DEGREES;
+use labspec_expr::{DimensionStore, Role, Schema, TextDimensions};
 use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// The unit in a label does not match its expression.
@@ -76,7 +77,7 @@ pub(crate) fn wrong_label(
     labels: &[&Text],
     model: &Model,
     bound: &Bound,
-    found: &Dimension,
+    measured: &Dimension,
 ) -> Option<Finding> {
     let (label, (text, expected)) = labels.iter().find_map(|l| Some((l, of_label(l.as_str())?)))?;
     // An object of the model may have the name of a unit.
@@ -84,20 +85,23 @@ pub(crate) fn wrong_label(
         return None;
     }
     // `min` may mean a minimum instead of minutes.
-    if text == "min" && !found.agrees(&expected) {
+    if text == "min" && !measured.agrees(&expected) {
         return None;
     }
     // A revolution is not a radian.
-    let turns = text.contains("Hz") && found.is_exact() && found.has_angle() && found.agrees(&expected);
-    if !contradicts(found, &expected) && !turns {
+    let turns =
+        text.contains("Hz") && measured.is_exact() && measured.has_angle() && measured.agrees(&expected);
+    if !contradicts(measured, &expected) && !turns {
         return None;
     }
-    let gives = written(found);
+    let gives = written(measured);
     let message = format!("the label says {text}, but the expression gives {gives}");
     let found = Finding::new(LABEL_UNIT, label.span(), message)
-        .why(why(found, &expected))
+        .why(why(measured, &expected))
         .related(bound.text.span(), format!("this is in {gives}"));
-    Some(found.help(match convert(&expected, bound.text.as_str()) {
+    let scaled = measured.agrees(&expected) && measured.is_exact();
+    let converted = if scaled { convert(&expected, bound.text.as_str()) } else { None };
+    Some(found.help(match converted {
         Some(converted) => {
             format!(
                 "write `{converted}`, which converts the number, or write its unit, {gives}, into the label"
@@ -152,29 +156,128 @@ pub(crate) fn wrong_control(
     measured: &TextDimensions,
 ) -> Option<Finding> {
     let Measure::Dimension(_) = given_by(control) else { return None };
-    let (stored, found, expected) = measured.stores.iter().find_map(|stored| {
-        let (Measure::Dimension(found), Measure::Dimension(expected)) =
-            (stored.measure, names.measure(stored.access.field, stored.access.first, stored.access.count))
-        else {
-            return None;
-        };
-        contradicts(&found, &expected).then_some((stored, found, expected))
-    })?;
+    let (stored, found, expected) = stores(names, measured).find(|(_, found, expected)| contradicts(found, expected))?;
     let field = FieldId::new(stored.access.field.0 as usize)?.info().name;
-    let label = match &control.kind {
-        ControlKind::Slider { unit: Some(text), .. } if unit(text.as_str()).is_some() => text,
-        _ => &control.label,
-    };
     let message = format!(
         "the control stores a value in {}, but {field} is in {}",
         written(&found),
         written(&expected)
     );
     let span = bound.text.span_of(stored.span.into());
-    let finding = Finding::new(LABEL_UNIT, label.span(), message).related(span, "it stores this");
+    let finding = Finding::new(LABEL_UNIT, unit_text(control).span(), message).related(span, "it stores this");
     Some(
         finding
             .why(why(&found, &expected))
             .help("convert `value` where it is stored, or write the unit of the field"),
     )
+}
+
+/// The numbers that a program stores in fields, with the dimension of each and that of the field, where both are certain.
+fn stores<'t>(
+    names: &'t dyn Schema,
+    measured: &'t TextDimensions,
+) -> impl Iterator<Item = (&'t DimensionStore, Dimension, Dimension)> {
+    measured.stores.iter().filter_map(move |stored| {
+        let access = stored.access;
+        match (stored.measure, names.measure(access.field, access.first, access.count)) {
+            (Measure::Dimension(found), Measure::Dimension(expected)) => Some((stored, found, expected)),
+            _ => None,
+        }
+    })
+}
+
+/// The text that gives the unit of a control: its `unit`, or else its label.
+fn unit_text(control: &Control) -> &Text {
+    match &control.kind {
+        ControlKind::Slider { unit: Some(text), .. } if unit(text.as_str()).is_some() => text,
+        _ => &control.label,
+    }
+}
+
+/// Reports a control whose value is an angle and is stored as a component of a quaternion.
+pub(crate) fn angle_in_quaternion(
+    control: &Control,
+    names: &dyn Schema,
+    bound: &Bound,
+    measured: &TextDimensions,
+) -> Option<Finding> {
+    let Measure::Dimension(_) = given_by(control) else { return None };
+    measured.stores.iter().find_map(|stored| {
+        let Measure::Dimension(found) = stored.measure else { return None };
+        let is_angle = found.has_angle() && found.agrees(&Dimension::RADIAN);
+        if !is_angle || stored.access.count != Some(1) || !(found.is_exact() || in_degrees(&found)) {
+            return None;
+        }
+        let Role::NoAngle(advice) = names.role(stored.access.field, stored.access.first) else { return None };
+        let field = FieldId::new(stored.access.field.0 as usize)?.info().name;
+        let message = format!("the control stores an angle in {field}[{}], which is {}", stored.access.first, advice.what);
+        Some(
+            Finding::new(advice.rule, unit_text(control).span(), message)
+                .why(advice.why)
+                .related(bound.text.span_of(stored.span.into()), "it stores this")
+                .help("store the cosine of half the angle in the first of the four numbers, and its sine times the axis in the others"),
+        )
+    })
+}
+
+/// Reports a control whose value another program reads from `ctx` and stores unconverted in a field with another unit.
+pub(crate) fn unconverted_parameter(
+    (lab, programs): (&Lab, &Programs),
+    names: &dyn Schema,
+    bound: &Bound,
+    measured: &TextDimensions,
+) -> Option<Finding> {
+    let reads = &bound.program.effects().ctx_reads;
+    stores(names, measured).find_map(|(stored, found, expected)| {
+        let same_quantity = found.agrees(&expected) && found.has_angle() == expected.has_angle();
+        let ratio = found.factor.abs() / expected.factor.abs();
+        if !same_quantity || !ratio.is_finite() || (ratio - 1.0).abs() < 1e-3 {
+            return None;
+        }
+        // Without a conversion, the number has the factor of the control's unit.
+        let (control, slot) = parameters(lab, programs).find(|(control, slot)| {
+            let Measure::Dimension(given) = given_by(control) else { return false };
+            reads.contains(slot) && (found.factor.abs() / given.factor.abs() - 1.0).abs() < 1e-9
+        })?;
+        let field = FieldId::new(stored.access.field.0 as usize)?.info().name;
+        let name = format!("ctx.{}", programs.globals.name(slot));
+        let [given, needed] = [written(&found), written(&expected)];
+        let message = format!("`{name}` is in {given}, but it is stored unconverted in {field}, which is in {needed}");
+        let help = match in_degrees(&found) {
+            true => format!("write `lib.rad({name})` where it is stored, or give the control the unit {needed}"),
+            false => format!("convert `{name}` where it is stored, or give the control the unit {needed}"),
+        };
+        Some(
+            Finding::new(LABEL_UNIT, unit_text(control).span(), message)
+                .why(format!("the lab takes a number of {given} for a number of {needed}"))
+                .related(bound.text.span_of(stored.span.into()), "it is stored here")
+                .help(help),
+        )
+    })
+}
+
+/// The controls that store their value in a variable, with its slot.
+fn parameters<'l>(lab: &'l Lab, programs: &'l Programs) -> impl Iterator<Item = (&'l Control, u32)> {
+    lab.controls.iter().zip(&programs.controls).filter_map(|(control, (_, program))| match program {
+        ControlProgram::Change(_, action) => Some((control, action.param?)),
+        ControlProgram::Press(_) => None,
+    })
+}
+
+/// Reports functions that take radians, but receive an angle in degrees.
+pub(crate) fn degrees_passed(bound: &Bound, measured: &TextDimensions, findings: &mut Vec<Finding>) {
+    let mut reported = Vec::new();
+    for argument in &measured.angles {
+        let Measure::Dimension(found) = argument.measure else { continue };
+        if !in_degrees(&found) || reported.contains(&argument.span) || reported.len() >= super::MAX_IN_TEXT {
+            continue;
+        }
+        reported.push(argument.span);
+        let message = format!("`{}` takes radians, but its argument is in degrees", argument.function);
+        findings.push(
+            Finding::new(DEGREES, bound.text.span_of(argument.span.into()), message)
+                .why("a full turn is 2π, about 6.28 radians")
+                .help("convert the argument: `lib.rad(x)`, or `x * Math.PI / 180`"),
+        );
+    }
 }

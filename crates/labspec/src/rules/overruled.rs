@@ -4,13 +4,13 @@
 //! Only values that a control sets directly are observed, elements of the model and inputs, so that the control has no other
 //! effect.
 
-use crate::bind::{Bound, ControlProgram};
+use crate::bind::{Bound, ControlProgram, functions};
 use crate::check::observations::{Move, ObservedLab, Setting, settings, values};
 use crate::check::setconst::digits;
 use crate::run::{Session, Start};
 use crate::spec::Control;
 use labspec_core::reflect::{FieldId, Kind, Object, option};
-use labspec_expr::{FieldKey, Host, Value};
+use labspec_expr::{FieldKey, FunctionId, Host, Value};
 use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// The setup or the controller overwrites what a control sets.
@@ -62,11 +62,18 @@ impl WrittenElement {
     }
 }
 
-/// The elements that a program sets. `None` if it has other effects, or sets values that also change by themselves.
+/// Functions of the host that set no element of the model and no input, except from what a program sets.
+const RECOMPUTING: [&str; 2] = ["mj_setConst", "mj_forward"];
+
+/// The elements that a program sets. `None` if other elements may change with them, or if they also change by themselves.
 fn elements(bound: &Bound) -> Option<Vec<WrittenElement>> {
     let effects = bound.program.effects();
-    let more = effects.writes_everything || effects.any_ctx || effects.calls_values;
-    if more || !effects.ctx_writes.is_empty() || !effects.calls.is_empty() {
+    let recomputes = |f: &FunctionId| functions::name(*f).is_some_and(|name| RECOMPUTING.contains(&name));
+    if effects.writes_everything
+        || effects.any_ctx
+        || effects.calls_values
+        || !effects.calls.iter().all(recomputes)
+    {
         return None;
     }
     let mut all = Vec::new();
@@ -79,6 +86,12 @@ fn elements(bound: &Bound) -> Option<Vec<WrittenElement>> {
         all.extend((write.first..write.first + count).map(|index| WrittenElement { field, index }));
     }
     (!all.is_empty() && all.len() <= MAX_ELEMENTS).then_some(all)
+}
+
+/// Whether a program does nothing else than set elements: the controller may read a variable that it stores.
+fn only_sets(bound: &Bound) -> bool {
+    let effects = bound.program.effects();
+    effects.ctx_writes.is_empty() && effects.calls.is_empty()
 }
 
 /// Checks every control, and reports the overwritten ones.
@@ -95,7 +108,9 @@ pub(crate) fn check_overruled_controls(observed: &mut ObservedLab<'_>, findings:
             Finding::warning(OVERRULED, bound.text.span(), format!("the lab does not start with the value of \"{label}\""))
                 .why(why)
                 .help("delete the code after the control that overwrites it, in the setup or in another control, or let it use the control's value")
-        } else if let Some(why) = overwritten(observed, index, control, &elements) {
+        } else if let Some(why) =
+            only_sets(bound).then(|| overwritten(observed, index, control, &elements)).flatten()
+        {
             Finding::warning(
                 OVERRULED,
                 bound.text.span(),

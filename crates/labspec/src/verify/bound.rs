@@ -218,7 +218,7 @@ impl<'a> BoundVerify<'a> {
     /// Names and texts of the measures.
     pub(super) fn measure_texts(&self) -> impl Iterator<Item = (&str, &str)> {
         let measures = self.scenes.iter().flat_map(|scene| &scene.measures);
-        measures.map(|(name, measure)| (*name, measure.text.as_str()))
+        measures.map(|(name, measure)| (name.as_ref(), measure.text.as_str()))
     }
 
     /// Calls `work` with the first lab in its initial state, for expressions over measures: they read nothing of its data.

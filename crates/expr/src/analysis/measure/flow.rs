@@ -43,6 +43,7 @@ pub(crate) fn measured(
         }
         all.stores.extend(found.stores);
         all.clashes.extend(found.clashes);
+        all.angles.extend(found.angles);
     }
     all
 }

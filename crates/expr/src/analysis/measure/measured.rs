@@ -28,6 +28,19 @@ pub struct TextDimensions {
     pub stores: Vec<DimensionStore>,
     /// Additions and comparisons of quantities with different dimensions.
     pub clashes: Vec<DimensionClash>,
+    /// The arguments of functions that take an angle in radians.
+    pub angles: Vec<AngleArgument>,
+}
+
+/// The argument of a function that takes an angle in radians, as `Math.sin`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AngleArgument {
+    /// The location of the call.
+    pub span: Span,
+    /// The function.
+    pub function: String,
+    /// The measure of the argument.
+    pub measure: Measure,
 }
 
 /// A number that is stored in a field.

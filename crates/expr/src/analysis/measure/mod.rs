@@ -15,4 +15,4 @@ mod natives;
 mod operation;
 
 pub(crate) use flow::measured;
-pub use measured::{DimensionClash, DimensionStore, KnownDimensions, TextDimensions};
+pub use measured::{AngleArgument, DimensionClash, DimensionStore, KnownDimensions, TextDimensions};

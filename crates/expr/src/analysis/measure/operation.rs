@@ -1,15 +1,17 @@
 //! The measure of the result of one operation, given the measures of its operands.
 
 use super::flow::MeasureWalk;
-use super::measured::DimensionStore;
+use super::measured::{AngleArgument, DimensionStore};
 use super::natives as handed;
 use crate::analysis::effects::{element, whole};
 use crate::dimension::{Dimension, Measure};
 use crate::effects::Access;
 use crate::math;
 use crate::operators::{BinaryOp, UnaryOp};
+use crate::schema::Param;
 use crate::ssa::{Args, Num, Op, Operand, OperandUse, Representation, Val};
 use crate::tables::{MethodId, UnitId};
+use crate::types::FunctionId;
 use crate::value::Value;
 use labspec_finding::Span;
 
@@ -72,6 +74,7 @@ impl MeasureWalk<'_> {
         match *op {
             Op::CallHost(d, function, args) => {
                 let args = args.operands(&self.unit.args);
+                self.host_angles(function, args, span);
                 let first = args.first().and_then(|v| self.unit.constant_value(Val(*v)));
                 let gives = self.around.schema.gives(function, first.map(Value::to_number));
                 let m = gives.resolve(|i| args.get(i).map_or(Measure::Unknown, |v| self.value(Val(*v))));
@@ -249,6 +252,18 @@ impl MeasureWalk<'_> {
         given.into_iter().for_each(|operand| self.set(operand, Measure::Unknown));
     }
 
+    /// Records the arguments of a host function that are angles. Objects are not passed.
+    fn host_angles(&mut self, function: FunctionId, args: &[u32], span: &Span) {
+        let info = self.around.schema.function(function);
+        let passed = info.params.iter().filter(|p| !matches!(p, Param::Object(_)));
+        for (param, v) in passed.zip(args) {
+            if *param == Param::Angle {
+                let measure = self.value(Val(*v));
+                self.found.angles.push(AngleArgument { span: *span, function: info.name.clone(), measure });
+            }
+        }
+    }
+
     fn stored(&mut self, access: Access, measure: Measure, span: &Span) {
         self.found.stores.push(DimensionStore { access, measure, span: *span });
     }
@@ -298,6 +313,10 @@ impl MeasureWalk<'_> {
         let args: Vec<Num> = args.operands(&self.unit.args).iter().map(|n| Num(*n)).collect();
         let measures: Vec<Measure> = args.iter().map(|n| self.number(*n)).collect();
         let first = measures.first().copied().unwrap_or_default();
+        if matches!(function.name(), "sin" | "cos" | "tan") {
+            let argument = AngleArgument { span: *span, function: function.path(), measure: first };
+            self.found.angles.push(argument);
+        }
         let mut together = || {
             for (i, m) in measures.iter().enumerate().skip(1) {
                 self.clash(span, measures.get(i - 1).copied().unwrap_or_default(), *m);

@@ -263,9 +263,15 @@ impl<'a> Binder<'a> {
         }
         let implied = info.implied && args.is_empty();
         let required = info.params.len().saturating_sub(info.optional);
+        let args = self.accepted_args(args, info.params.len());
+        // A method that calls a function for every element also passes the index, which an optional argument would receive.
+        if let Some(site) = self.site.filter(|_| args.len() > required.max(1)) {
+            return self.refuse(report_extra_index(&info.name, &site.called(), span));
+        }
         if !implied && (args.len() < required || args.len() > info.params.len()) {
             self.check_arguments(args);
-            let report = self.wrong_count(&info, args, Some(callee), span);
+            let callee = self.site.is_none().then_some(callee);
+            let report = self.wrong_count(&info, args, callee, span);
             return self.refuse(report);
         }
         let mut passed = Vec::new();
@@ -495,4 +501,13 @@ fn report_extra_arguments(path: &str, called: &str, span: Span) -> Finding {
     )
     .why(format!("`{called}` passes them after the element, and JavaScript converts a list to NaN"))
     .help(format!("write `(a, b) => {path}(a, b)` instead of `{path}`; for all elements of a list, write `{path}(...list)`"))
+}
+
+/// The finding for a function of the host whose optional argument would receive the index from a method.
+fn report_extra_index(name: &str, called: &str, span: Span) -> Finding {
+    Finding::error(rules::ARGUMENT_TYPE, span, format!("`{name}` would also receive the index"))
+        .why(format!(
+            "`{called}` passes it after the element, and the function takes it for its optional argument"
+        ))
+        .help(format!("write `x => {name}(x)` instead of `{name}`"))
 }

@@ -13,8 +13,9 @@ use crate::globals::Globals;
 use crate::ir::{Ir, IrKind, IrStatement, always_return};
 use crate::natives::{self, Native};
 use crate::parse::{Attempt, Reported};
+use crate::schema::Param;
 use crate::source_functions::source_functions;
-use crate::types::Type;
+use crate::types::{FunctionId, Type};
 use labspec_finding::Span;
 
 /// The resolved names of a function that is written in the language.
@@ -98,6 +99,7 @@ impl<'a> Binder<'a> {
         match self.entity(arg)? {
             closure @ Entity::Closure(_) => Ok(closure),
             function @ (Entity::MathFunction(_) | Entity::Native(_)) => Ok(function),
+            Entity::Function(id) if self.is_plain_function(id) => Ok(Entity::Function(id)),
             // `Number` is both a function and a namespace.
             Entity::Namespace(name) => match natives::find_function(name) {
                 Some(function) => Ok(Entity::Native(function)),
@@ -105,6 +107,12 @@ impl<'a> Binder<'a> {
             },
             other => self.value_of(other, arg.span).map(Entity::Value),
         }
+    }
+
+    /// Whether the arguments of a function of the host are values, so that it may be called by another name.
+    pub(super) fn is_plain_function(&self, id: FunctionId) -> bool {
+        let info = self.schema.function(id);
+        !info.aggregate && !info.params.iter().any(|p| matches!(p, Param::Object(_)))
     }
 
     /// Binds a parameter of a written method: an entity that needs no storage becomes an alias.

@@ -197,6 +197,9 @@ impl<'a> Binder<'a> {
             {
                 return Ok(Some(alias));
             }
+            Entity::Function(id) if !changes && self.is_plain_function(id) => {
+                return Ok(Some(Entity::Function(id)));
+            }
             single @ (Entity::Value(_) | Entity::Field(_) | Entity::Closure(_)) => {
                 let ir = self.value_of(single, value.span)?;
                 self.initialize(name, ir, steps);

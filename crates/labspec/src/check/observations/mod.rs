@@ -72,5 +72,6 @@ fn check_readouts(observed: &ObservedLab<'_>, findings: &mut Vec<Finding>) {
     for (readout, c) in lab.readouts.iter().zip(1 + lab.traces().count()..) {
         findings.extend(rules::label_unit::check_text_readout(observed, readout, c));
         findings.extend(rules::too_few_digits::check_readout(observed, readout, c));
+        findings.extend(rules::constant_readout::check_still_readout(observed, readout, c));
     }
 }
