@@ -131,7 +131,7 @@ fn a_recording_that_agrees_changes_no_verdict() {
 fn unjudged_claims_are_counted() {
     let folder = folder();
     let verify = json!({"runs": {"plain": {}}, "measure": {"height": "final(data.qpos[2])"},
-        "find": {"limit": {"largest": "gravity", "from": 5, "to": 15, "run": "plain", "while": "height > 0.5", "tol": 0.01}},
+        "find": {"limit": {"largest": "gravity", "from": 5, "to": 15, "run": "plain", "while": "height > 0.5", "tol": 0.001}},
         "says": [["11.03 m/s^2", "limit"]],
         "exact": {"height": "1 - 0.5 * 10 * data.time * data.time"}});
     let text = lesson()

@@ -91,8 +91,7 @@ pub(crate) fn contradicts(found: &Dimension, unit: &Dimension) -> bool {
         // The factor 1000 for millimetres is a conversion, not a quantity, and so is that of degrees.
         let difference = (factor / unit.factor.abs() - 1.0).abs();
         let of_length = unit.factor != 1.0 && is_power_of_ten(unit.factor) && difference < 1e-9;
-        let has_angle = found.has_angle() || unit.has_angle();
-        let of_angle = has_angle && is_degrees(unit.factor.abs()) && difference < 1e-3;
+        let of_angle = found.has_angle() && is_degrees(unit.factor.abs()) && difference < 1e-3;
         return found.is_exact() || of_length || of_angle;
     }
     let ratio = factor / unit.factor.abs();
@@ -189,7 +188,7 @@ mod tests {
             (d("1", 1000.0), "mm", true),
             (d("deg/s", 1.0), "deg", true),
             (d("deg", 1.0), "deg/s", true),
-            // A literal factor may be a speed in deg/s.
+            // The factor may be a speed in deg/s.
             (d("s", 1f64.to_degrees()), "deg", false),
             (d("deg/s", 2.0), "deg", false),
             (d("s", 50.0), "mm", false),

@@ -242,7 +242,7 @@ impl<'a> StressCase<'a> {
         let timestep = session.world.model.opt.timestep;
         let steps = self.steps(timestep, length);
         let mut watcher = self.watcher(interaction, &session);
-        let reaches_stop = self.lab.stop_at.as_ref().is_some_and(|stop| stop.value <= length);
+        let reaches_stop = self.lab.stop_at.as_ref().is_some_and(|stop| stop.value == length);
         let stop = run::stop_time(self.lab, None, None, steps).filter(|_| reaches_stop);
         let played = Play { stop, watched: true, ..Play::steps(steps) };
         let made = run::play(&mut session, &played, |session, made| {

@@ -9,5 +9,5 @@ pub const HOST_CALL: &Rule = &Rule {
     summary: "a called function fails",
     why: "JavaScript throws and stops the whole text",
     bad: Example::Statements("⟦mj.mj_resetDataKeyframe(model, data, 5)⟧"),
-    good: Example::Statements("mj.mj_resetData(model, data)"),
+    good: Example::Statements("if (data.time > 5) mj.mj_resetData(model, data)"),
 };

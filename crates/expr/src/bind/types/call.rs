@@ -2,6 +2,7 @@
 
 use super::access::ObjectChoice;
 use super::binder::{Binder, Entity};
+use super::extra_arguments::{report_extra_arguments, report_extra_index};
 use super::member::quoted;
 use super::typed::Expectation;
 use crate::ast::{Expr, ExprKind};
@@ -490,24 +491,4 @@ impl<'a> Binder<'a> {
 /// `1 argument`, `2 arguments`
 pub(super) fn count(n: usize, what: &str) -> String {
     if n == 1 { format!("1 {what}") } else { format!("{n} {what}s") }
-}
-
-/// The finding for a function of `Math` that a method would call with the index and the list as well.
-fn report_extra_arguments(path: &str, called: &str, span: Span) -> Finding {
-    Finding::error(
-        rules::ARGUMENT_TYPE,
-        span,
-        format!("`{path}` would also receive the index and the whole list"),
-    )
-    .why(format!("`{called}` passes them after the element, and JavaScript converts a list to NaN"))
-    .help(format!("write `(a, b) => {path}(a, b)` instead of `{path}`; for all elements of a list, write `{path}(...list)`"))
-}
-
-/// The finding for a function of the host whose optional argument would receive the index from a method.
-fn report_extra_index(name: &str, called: &str, span: Span) -> Finding {
-    Finding::error(rules::ARGUMENT_TYPE, span, format!("`{name}` would also receive the index"))
-        .why(format!(
-            "`{called}` passes it after the element, and the function takes it for its optional argument"
-        ))
-        .help(format!("write `x => {name}(x)` instead of `{name}`"))
 }

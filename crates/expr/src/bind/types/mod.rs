@@ -10,6 +10,7 @@ mod access;
 mod assign;
 mod binder;
 mod call;
+mod extra_arguments;
 mod facts;
 mod function;
 mod inline_method;

@@ -163,9 +163,9 @@ mod tests {
         }
         assert_eq!(answer_unit(Some("kg"), d("s").map(|s| s.times(1000.0))), AnswerUnit::Unknown);
         assert_eq!(answer_unit(Some("ms"), d("s").map(|s| s.times(1000.0))), AnswerUnit::Equal(1.0));
-        // The factor of degrees does not make an angle of a time.
+        // 180/π may be a speed in deg/s.
         let degrees = d("s").map(|s| s.times(1f64.to_degrees()));
-        assert!(matches!(answer_unit(Some("°"), degrees), AnswerUnit::Wrong(..)));
+        assert_eq!(answer_unit(Some("°"), degrees), AnswerUnit::Unknown);
         // The value is already in milliseconds.
         assert_eq!(answer_unit(Some("ms"), d("ms")), AnswerUnit::Equal(1.0));
         assert!(matches!(answer_unit(Some("s"), d("ms")), AnswerUnit::Wrong(..)));
