@@ -38,7 +38,11 @@ const FIXED_FIELDS: [FieldId; 8] = [
 const NAMES_OF_WORLD: [&str; 4] = ["world", "ground", "floor", "origin"];
 
 /// Reports a readout that shows the same number in every run, and reads only what never changes. `c`: its column.
-pub(crate) fn check_still_readout(observed: &ObservedLab<'_>, readout: &Readout, c: usize) -> Option<Finding> {
+pub(crate) fn check_still_readout(
+    observed: &ObservedLab<'_>,
+    readout: &Readout,
+    c: usize,
+) -> Option<Finding> {
     let ready = observed.bench.ready;
     let bound = ready.programs.probes.get(c.checked_sub(1)?)?.bound.as_ref()?;
     let effects = bound.program.effects();
@@ -48,7 +52,8 @@ pub(crate) fn check_still_readout(observed: &ObservedLab<'_>, readout: &Readout,
     let value = constant(column(observed.records, c))?.rounded(readout.digits());
     let (what, help) = if effects.reads.iter().all(|a| is(a, data::energy)) {
         let enabled = ready.model.opt.enableflags & enable::ENERGY != 0;
-        let sets_flags = |e: &Effects| e.writes_everything || e.writes.iter().any(|a| is(a, option::enableflags));
+        let sets_flags =
+            |e: &Effects| e.writes_everything || e.writes.iter().any(|a| is(a, option::enableflags));
         if enabled || ready.programs.bound().any(|b| sets_flags(b.program.effects())) {
             return None;
         }
@@ -57,9 +62,8 @@ pub(crate) fn check_still_readout(observed: &ObservedLab<'_>, readout: &Readout,
     } else {
         let of_world = |a: &Access| {
             FIXED_FIELDS.iter().any(|f| is(a, *f))
-                && a.count.is_some_and(|n| {
-                    element_owner(&ready.model, a.field, a.first, n) == Some((Obj::Body, 0))
-                })
+                && a.count
+                    .is_some_and(|n| element_owner(&ready.model, a.field, a.first, n) == Some((Obj::Body, 0)))
         };
         if !effects.reads.iter().all(of_world) || names_it(readout.label.as_str(), effects) {
             return None;
@@ -78,7 +82,11 @@ fn is(access: &Access, field: FieldId) -> bool {
 /// Whether the value follows from elements of fields alone, and from at least one of them.
 fn reads_only_fields(effects: &Effects) -> bool {
     let more = effects.reads_everything || effects.any_ctx || effects.calls_values || effects.aggregates;
-    !more && effects.ctx_reads.is_empty() && effects.calls.is_empty() && effects.pure() && !effects.reads.is_empty()
+    !more
+        && effects.ctx_reads.is_empty()
+        && effects.calls.is_empty()
+        && effects.pure()
+        && !effects.reads.is_empty()
 }
 
 /// Whether a label names the world or a field, so that the number is what it says.

@@ -204,7 +204,12 @@ fn exchanged_controls(lab: &Lab, model: &Model, programs: &Programs, findings: &
             let ControlProgram::Change(_, action) = program else { return None };
             let bound = action.run.as_ref()?;
             let body = body_set_by(bound, model)?;
-            Some(SettingControl { label: &control.label, bound, words: words_of(control.label.as_str()), body })
+            Some(SettingControl {
+                label: &control.label,
+                bound,
+                words: words_of(control.label.as_str()),
+                body,
+            })
         })
         .collect();
     let named = |word: &str| bodies.iter().position(|name| split_words(name) == [word]);
@@ -234,7 +239,8 @@ fn exchanged_controls(lab: &Lab, model: &Model, programs: &Programs, findings: &
 /// The only body whose elements of the model a program sets; `None` if it sets anything else.
 fn body_set_by(bound: &Bound, model: &Model) -> Option<usize> {
     let effects = bound.program.effects();
-    if effects.writes_everything || effects.any_ctx || effects.calls_values || !effects.ctx_writes.is_empty() {
+    if effects.writes_everything || effects.any_ctx || effects.calls_values || !effects.ctx_writes.is_empty()
+    {
         return None;
     }
     let mut all = bound.program.own_writes().into_iter().map(|write| {

@@ -156,7 +156,8 @@ pub(crate) fn wrong_control(
     measured: &TextDimensions,
 ) -> Option<Finding> {
     let Measure::Dimension(_) = given_by(control) else { return None };
-    let (stored, found, expected) = stores(names, measured).find(|(_, found, expected)| contradicts(found, expected))?;
+    let (stored, found, expected) =
+        stores(names, measured).find(|(_, found, expected)| contradicts(found, expected))?;
     let field = FieldId::new(stored.access.field.0 as usize)?.info().name;
     let message = format!(
         "the control stores a value in {}, but {field} is in {}",
@@ -164,7 +165,8 @@ pub(crate) fn wrong_control(
         written(&expected)
     );
     let span = bound.text.span_of(stored.span.into());
-    let finding = Finding::new(LABEL_UNIT, unit_text(control).span(), message).related(span, "it stores this");
+    let finding =
+        Finding::new(LABEL_UNIT, unit_text(control).span(), message).related(span, "it stores this");
     Some(
         finding
             .why(why(&found, &expected))
@@ -242,9 +244,12 @@ pub(crate) fn unconverted_parameter(
         let field = FieldId::new(stored.access.field.0 as usize)?.info().name;
         let name = format!("ctx.{}", programs.globals.name(slot));
         let [given, needed] = [written(&found), written(&expected)];
-        let message = format!("`{name}` is in {given}, but it is stored unconverted in {field}, which is in {needed}");
+        let message =
+            format!("`{name}` is in {given}, but it is stored unconverted in {field}, which is in {needed}");
         let help = match in_degrees(&found) {
-            true => format!("write `lib.rad({name})` where it is stored, or give the control the unit {needed}"),
+            true => {
+                format!("write `lib.rad({name})` where it is stored, or give the control the unit {needed}")
+            }
             false => format!("convert `{name}` where it is stored, or give the control the unit {needed}"),
         };
         Some(

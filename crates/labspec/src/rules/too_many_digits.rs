@@ -70,11 +70,13 @@ pub(crate) fn check_surplus_digits(observed: &mut ObservedLab<'_>, findings: &mu
         let last = |rows: &[Vec<Cell>]| rows.last().and_then(|row| row.get(first + i)).cloned();
         let (Some(coarse), Some(halved)) = (last(&nominal), last(&fine)) else { continue };
         let time = nominal.last().and_then(|row| row.first()).map_or(0.0, Cell::number);
-        let pairs = || nominal.iter().zip(&fine).filter_map(|(a, b)| Some((a.get(first + i)?, b.get(first + i)?)));
+        let pairs =
+            || nominal.iter().zip(&fine).filter_map(|(a, b)| Some((a.get(first + i)?, b.get(first + i)?)));
         // The advice is tried: with it, the quoted numbers are the same, and most of the others.
         let same = |(a, b): (&Cell, &Cell), n: u32| a.rounded(n) == b.rounded(n);
         let holds = |n: &u32| {
-            same((&coarse, &halved), *n) && 2 * pairs().filter(|pair| same(*pair, *n)).count() >= pairs().count()
+            same((&coarse, &halved), *n)
+                && 2 * pairs().filter(|pair| same(*pair, *n)).count() >= pairs().count()
         };
         let supported = (0..=u32::try_from(good).unwrap_or(0)).rev().find(holds);
         findings.push(surplus(readout, supported).why(format!(
@@ -89,8 +91,7 @@ pub(crate) fn check_surplus_digits(observed: &mut ObservedLab<'_>, findings: &mu
 /// The finding for a readout, of whose decimals the integration supports so many, or none.
 fn surplus(readout: &Readout, supported: Option<u32>) -> Finding {
     let all_but = supported.map_or("all of them".into(), |n| format!("all but {n}"));
-    let message =
-        format!("{} decimals are printed, but the timestep decides {all_but}", readout.digits());
+    let message = format!("{} decimals are printed, but the timestep decides {all_but}", readout.digits());
     let advice = supported.map_or(String::new(), |n| format!("write \"digits\": {n}, or "));
     Finding::new(TOO_MANY_DIGITS, readout.expr.span(), message)
         .help(format!("{advice}use a shorter timestep; `labspec precision` shows how short"))
