@@ -97,6 +97,65 @@ pub fn element_owner(m: &Model, FieldKey(f): FieldKey, first: usize, count: usiz
     (first + count.max(1) <= start + length).then_some((kind, object))
 }
 
+/// The axis of the world along which an element of a field is measured.
+#[derive(Clone, Copy, Debug)]
+pub struct ElementAxis {
+    /// 0 to 2: x, y, z.
+    pub index: usize,
+    /// Whether the elements beside it are measured along the other axes.
+    pub of_three: bool,
+}
+
+/// The axis of the world along which an element of a field is measured: a coordinate or a velocity of a free joint or of a slide,
+/// or a position in the world frame. `None` if it is measured along no axis.
+pub fn element_axis(m: &Model, field: FieldId, index: usize) -> Option<ElementAxis> {
+    let of_three = |offset: usize| Some(ElementAxis { index: offset, of_three: true }).filter(|_| offset < 3);
+    if [data::xpos, data::xipos, data::geom_xpos, data::site_xpos, data::cam_xpos, data::subtree_com]
+        .contains(&field)
+    {
+        return of_three(index % 3);
+    }
+    if ![data::qpos, data::qvel, data::qacc].contains(&field) {
+        return None;
+    }
+    let (Obj::Joint, joint) = owner(m, field, index)? else { return None };
+    let (first, _) = row(m, field, Obj::Joint, joint)?;
+    match *m.jnt_type.get(joint)? {
+        joint::FREE => of_three(index - first),
+        joint::SLIDE => Some(ElementAxis { index: slide_axis(m, joint)?, of_three: false }),
+        _ => None,
+    }
+}
+
+/// The axis of the world along which a slide moves, if nothing turns its body.
+fn slide_axis(m: &Model, joint: usize) -> Option<usize> {
+    /// The sine of the largest angle between the slide and the axis.
+    const ALIGNED: f64 = 1e-6;
+    let mut axis = *m.jnt_axis.get(3 * joint..3 * joint + 3)?.first_chunk::<3>()?;
+    let own = usize::try_from(*m.jnt_bodyid.get(joint)?).ok()?;
+    let mut body = own;
+    while body != 0 {
+        let turned = (0..m.njnt).any(|j| {
+            m.jnt_bodyid.get(j).and_then(|b| usize::try_from(*b).ok()) == Some(body)
+                && m.jnt_type.get(j) != Some(&joint::SLIDE)
+                && (body != own || j < joint)
+        });
+        if turned {
+            return None;
+        }
+        axis =
+            labspec_core::math::rotate(axis, *m.body_quat.get(4 * body..4 * body + 4)?.first_chunk::<4>()?);
+        body = usize::try_from(*m.body_parentid.get(body)?).ok()?;
+    }
+    let off = |i: usize| axis.iter().enumerate().all(|(k, x)| k == i || x.abs() < ALIGNED);
+    (0..3).find(|i| off(*i))
+}
+
+/// The description of an element, for messages: `joint "ball" (free): z position, m`.
+pub fn describe_element(m: &Model, field: FieldId, index: usize) -> Option<String> {
+    help(m, field, index, "")
+}
+
 /// The description of an element with its unit: `joint "light_free" (free): z position, m`.
 pub(super) fn help(m: &Model, f: FieldId, index: usize, unit: &str) -> Option<String> {
     let (kind, object) = owner(m, f, index)?;

@@ -25,7 +25,7 @@ pub mod units;
 mod world;
 
 pub use displayed::DisplayedLabels;
-pub use elements::element_owner;
+pub use elements::{ElementAxis, describe_element, element_axis, element_owner};
 pub use embedded::Functions;
 pub use engine::{Engine, Expression, Statements};
 pub use error::Error;

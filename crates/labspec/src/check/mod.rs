@@ -269,6 +269,7 @@ fn prepare<'l>(
         rules::lost_at_reset::check_resets(lab, &model, &programs, findings);
         units::check_units(lab, &model, &programs, findings);
         rules::label_names_another::check_names(lab, &model, &programs, findings);
+        rules::label_axis::check_axes(lab, &model, &programs, findings);
     }
     Some(PreparedLab { lab, model, programs, mistakes })
 }

@@ -267,7 +267,7 @@ fn a_number(trace: &Trace, bound: Option<&Bound>, all: &[LabelledObject]) -> Opt
 }
 
 /// The words of a label without its unit.
-fn words_of(label: &str) -> Vec<String> {
+pub(super) fn words_of(label: &str) -> Vec<String> {
     let end = crate::bind::of_label(label).and_then(|(unit, _)| label.rfind(unit));
     split_words(end.and_then(|boundary| label.get(..boundary)).unwrap_or(label))
 }
@@ -352,7 +352,7 @@ fn displayed<'l>(
 }
 
 /// The words of a label or a name, in lower case.
-fn split_words(text: &str) -> Vec<String> {
+pub(super) fn split_words(text: &str) -> Vec<String> {
     let parts = text.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty());
     parts.map(str::to_lowercase).collect()
 }

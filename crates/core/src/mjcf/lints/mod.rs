@@ -3,6 +3,7 @@
 //!
 //! The lints run on a model without errors. Each states the consequence in numbers of this model.
 
+mod angles;
 mod contradicted;
 mod overlapping;
 mod too_fast;
@@ -18,6 +19,7 @@ use std::ops::Range;
 pub(super) fn check_model(tree: &ElementTree, m: &Model, report: &mut Diagnostics) {
     unused_names::check_names(tree, report);
     contradicted::check_ranges(tree, m, report);
+    angles::check_angles(tree, m, report);
     too_fast::check_time_constants(tree, m, report);
     weights::check_masses(tree, m, report);
     overlapping::check_overlaps(tree, m, report);

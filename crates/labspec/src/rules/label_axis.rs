@@ -1,0 +1,154 @@
+use crate::bind::{Bound, Programs};
+use crate::source::Text;
+use crate::spec::Lab;
+use labspec_bind::{describe_element, element_axis};
+use labspec_core::reflect::FieldId;
+use labspec_core::Model;
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
+
+/// A label names a direction, but its expression reads a coordinate of another direction.
+pub const LABEL_AXIS: &Rule = &Rule {
+    code: "label-axis",
+    severity: Severity::Warning,
+    exceptions: &[],
+    layer: Layer::Program,
+    summary: "a label names a direction, but its expression reads a coordinate of another direction",
+    why: "the coordinates of a body are x, y, z in this order, z up: a wrong index shows a height that never changes. The rule reports expressions that read one coordinate",
+    bad: Example::Lab(
+        r#"{"xml": "<mujoco><worldbody><body name='ball' pos='0 0 1'><freejoint/><geom size='.05'/></body></worldbody></mujoco>", "setup": "data.qvel[1] = 1", "readouts": [{"label": "⟦height (m)⟧", "expr": "data.qpos[1]"}]}"#,
+    ),
+    good: Example::Lab(
+        r#"{"xml": "<mujoco><worldbody><body name='ball' pos='0 0 1'><freejoint/><geom size='.05'/></body></worldbody></mujoco>", "setup": "data.qvel[1] = 1", "readouts": [{"label": "height (m)", "expr": "data.qpos[2]"}]}"#,
+    ),
+};
+
+/// Words for the direction of gravity. The vocabulary is that of the languages in which lessons are written.
+const VERTICAL: [&str; 12] = [
+    "height",
+    "altitude",
+    "elevation",
+    "vertical",
+    "höhe",
+    "vertikal",
+    "vertikale",
+    "hauteur",
+    "verticale",
+    "altura",
+    "altezza",
+    "verticale",
+];
+const HORIZONTAL: [&str; 6] =
+    ["horizontal", "horizontale", "waagrecht", "waagrechte", "orizzontale", "sideways"];
+/// Words that may stand beside the letter of an axis.
+const COORDINATE: [&str; 9] = [
+    "position",
+    "coordinate",
+    "velocity",
+    "speed",
+    "component",
+    "of",
+    "the",
+    "koordinate",
+    "geschwindigkeit",
+];
+/// The most words of a label that only names a direction and an object.
+const MAX_WORDS: usize = 4;
+/// The most labels that are checked.
+const MAX_LABELS: usize = 400;
+/// A direction is along an axis if its component is closer to 1.
+const ALIGNED: f64 = 1e-6;
+
+/// The direction that a label names.
+enum NamedDirection {
+    Vertical(String),
+    Horizontal(String),
+    /// The index of the axis.
+    Axis(usize),
+}
+
+pub(crate) fn check_axes(lab: &Lab, model: &Model, programs: &Programs, findings: &mut Vec<Finding>) {
+    let traces = lab.plots.iter().flat_map(|p| &p.traces).map(|t| &t.label);
+    let labels = traces.chain(lab.readouts.iter().map(|r| &r.label));
+    let all = labels.zip(&programs.probes).take(MAX_LABELS);
+    findings.extend(all.filter_map(|(label, probe)| check_axis(label, probe.bound.as_ref()?, model)));
+}
+
+fn check_axis(label: &Text, bound: &Bound, model: &Model) -> Option<Finding> {
+    let effects = bound.program.effects();
+    if effects.reads_everything || effects.any_ctx || effects.calls_values || !effects.ctx_reads.is_empty() {
+        return None;
+    }
+    let [read] = effects.reads.as_slice() else { return None };
+    if read.count != Some(1) {
+        return None;
+    }
+    let field = FieldId::new(read.field.0 as usize)?;
+    let axis = element_axis(model, field, read.first)?;
+    let up = vertical(model)?;
+    let (named, meant) = match named_direction(label, model)? {
+        NamedDirection::Vertical(word) if axis.index != up => (word, Some(up)),
+        NamedDirection::Horizontal(word) if axis.index == up => (word, None),
+        // Along a slide, `x` is often any displacement.
+        NamedDirection::Axis(wanted) if axis.of_three && axis.index != wanted => {
+            (letter(wanted).to_owned(), Some(wanted))
+        }
+        _ => return None,
+    };
+    let what = describe_element(model, field, read.first)?;
+    let message =
+        format!("the label names {named}, but the expression reads the {} coordinate", letter(axis.index));
+    let help = match meant.filter(|_| axis.of_three) {
+        Some(meant) => format!(
+            "read the {} coordinate, `{}.{}[{}]`, or correct the label",
+            letter(meant),
+            if field.info().object == labspec_core::reflect::Object::Model { "model" } else { "data" },
+            field.info().name,
+            read.first + meant - axis.index
+        ),
+        None => "read a coordinate of that direction, or correct the label".to_owned(),
+    };
+    Some(
+        Finding::new(LABEL_AXIS, label.span(), message)
+            .help(help)
+            .related(bound.text.span(), format!("this reads {what}")),
+    )
+}
+
+fn letter(axis: usize) -> &'static str {
+    ["x", "y", "z"].get(axis).copied().unwrap_or("z")
+}
+
+/// The axis along which gravity pulls; z if there is none. `None` if it pulls along no axis: a slope by tilted gravity.
+fn vertical(model: &Model) -> Option<usize> {
+    let g = model.opt.gravity;
+    let length = g.iter().map(|x| x * x).sum::<f64>().sqrt();
+    if length == 0.0 {
+        return Some(2);
+    }
+    g.iter().position(|x| x.abs() > (1.0 - ALIGNED) * length)
+}
+
+/// The direction that a label names. `None` if it names none, or may say more than a direction and an object.
+fn named_direction(label: &Text, model: &Model) -> Option<NamedDirection> {
+    let words = super::label_names_another::words_of(label.as_str());
+    if words.len() > MAX_WORDS {
+        return None;
+    }
+    let of_model: Vec<Vec<String>> =
+        super::label_names_another::names(model).map(super::label_names_another::split_words).collect();
+    let belongs = |word: &String| {
+        COORDINATE.contains(&word.as_str()) || of_model.iter().any(|name| name.contains(word))
+    };
+    let direction = |word: &String| {
+        let letters = word.strip_prefix('v').filter(|rest| !rest.is_empty()).unwrap_or(word);
+        match word.as_str() {
+            w if VERTICAL.contains(&w) => Some(NamedDirection::Vertical(w.to_owned())),
+            w if HORIZONTAL.contains(&w) => Some(NamedDirection::Horizontal(w.to_owned())),
+            _ => ["x", "y", "z"].iter().position(|l| *l == letters).map(NamedDirection::Axis),
+        }
+    };
+    let mut found = words.iter().enumerate().filter_map(|(i, w)| Some((i, direction(w)?)));
+    let (Some((place, named)), None) = (found.next(), found.next()) else { return None };
+    let others_belong = words.iter().enumerate().all(|(i, w)| i == place || belongs(w) || w == "v");
+    others_belong.then_some(named)
+}
