@@ -1,6 +1,7 @@
 //! Checks the claims of one `verify` object: executes its runs and checks its answer, quotes and closed forms.
 
 use super::bound::BoundVerify;
+use super::identical_runs::check_identical_runs;
 use super::judgement::{Judgement, Measured, RunReport, not_executable};
 use super::options::is_undecided;
 use super::outcome::MeasuredRuns;
@@ -24,6 +25,7 @@ pub fn check_verify(
     rendered: &RenderedText,
     findings: &mut Vec<Finding>,
 ) -> Judgement {
+    check_identical_runs(bound, findings);
     match run_all_numerics(bound, verify, findings) {
         Some(outcomes) => judge(bound, &outcomes, verify, question, rendered, findings),
         None => not_executable(verify, question, "a run cannot be made"),

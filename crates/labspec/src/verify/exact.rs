@@ -32,9 +32,10 @@ const ROUNDING: f64 = 1e-9;
 const MAX_UNCERTAINTY: f64 = 0.01;
 const MAX_DISTANCE: f64 = 0.1;
 
-/// A tolerance above `WIDE_TOLERANCE_FACTOR` times the larger of trace and formula accepts everything. `NOISE` is the
-/// difference that rounding alone produces.
-const WIDE_TOLERANCE_FACTOR: f64 = 2.0;
+/// A tolerance that is a larger fraction of the change of the formula, or of the values if the formula is constant, does not tell
+/// the trace from others. `NOISE` is the difference that rounding alone produces.
+const WIDE_TOLERANCE: f64 = 0.25;
+const WIDE_CONSTANT_TOLERANCE: f64 = 0.5;
 const NOISE: f64 = 1e-12;
 
 /// The result of checking the closed form of a trace.
@@ -80,6 +81,13 @@ impl Differences {
             [traces().fold(f64::INFINITY, f64::min), traces().fold(f64::NEG_INFINITY, f64::max)];
         let range = most - least;
         if range > ROUNDING * self.size() { range } else { self.size() }
+    }
+
+    /// The difference between the largest and the smallest value of the formula; `None` if it is constant.
+    fn change_of_form(&self) -> Option<f64> {
+        let forms = || self.values.iter().map(|[_, form]| *form);
+        let change = forms().fold(f64::NEG_INFINITY, f64::max) - forms().fold(f64::INFINITY, f64::min);
+        (change > ROUNDING * self.size()).then_some(change)
     }
 
     fn size(&self) -> f64 {
@@ -188,6 +196,18 @@ pub(super) fn bind_closed_form<'b>(
     let form = compiled.program.map(|program| Bound { text: claim.form.clone(), program });
     let traces: Option<Vec<&Bound>> = probes.into_iter().collect();
     let (traces, form) = traces.zip(form).ok_or("the trace or its closed form has errors")?;
+    if traces.iter().any(|trace| reads_the_run(&trace.program, programs).is_none()) {
+        findings.push(
+            Finding::error(
+                rules::CLOSED_FORM_UNTRIED,
+                claim.trace.span(),
+                format!("the trace \"{}\" reads nothing that is simulated", claim.trace.value),
+            )
+            .why("two formulas of time are compared, so the run shows nothing about either")
+            .help("let the trace read the data of the run, such as `data.qpos[0]`"),
+        );
+        return Err("the trace reads nothing that is simulated");
+    }
     if let Some(what) = reads_the_run(&form.program, programs) {
         findings.push(no_formula(claim, &what));
         return Err("the closed form reads computed values of the simulation");
@@ -285,11 +305,15 @@ fn within(tol: f64, run: &Differences) -> Comparison {
         format!("they differ by at most {}, the tolerance is {}", significant(worst), significant(tol));
     // Near zero, both values are noise, and no tolerance is too large for them.
     let noise = worst <= NOISE;
-    if worst <= tol && tol > WIDE_TOLERANCE_FACTOR * run.size() && !noise {
+    let (scale, wide, what) = match run.change_of_form() {
+        Some(change) => (change, WIDE_TOLERANCE, "the formula changes by only"),
+        None => (run.size(), WIDE_CONSTANT_TOLERANCE, "no value exceeds"),
+    };
+    if worst <= tol && tol > wide * scale && !noise {
         let how = format!(
-            "a tolerance of {} accepts everything, because no value exceeds {}",
+            "a tolerance of {} is too wide to tell it from another curve: {what} {}",
             significant(tol),
-            significant(run.size())
+            significant(scale)
         );
         return (State::Unchecked, how, None);
     }

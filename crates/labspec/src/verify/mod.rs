@@ -13,7 +13,7 @@
 //! | whether a claim could have a different outcome | `evidence` |
 //! | whether a condition holds, and by which margin | `condition` |
 //! | the answer of a question | `answer` |
-//! | numbers in the texts of options | `option_numbers` |
+//! | numbers in the texts of options | `option_numbers`, `stated_numbers` |
 //! | numbers and words in the text | `says`, `quote` |
 //! | columns of tables | `column` |
 //! | dimensions of the numbers | `units` |
@@ -42,12 +42,14 @@ pub(crate) mod float_bits;
 mod format;
 mod found;
 mod grounded;
+mod identical_runs;
 mod imagined;
 mod interpolated;
 pub mod judge;
 mod judgement;
 mod layout;
 mod list_measure;
+mod loose_tolerance;
 mod measure;
 mod measure_units;
 mod no_value;
@@ -69,6 +71,7 @@ mod sample;
 mod says;
 mod search;
 mod slider_effect;
+mod stated_numbers;
 mod survival;
 mod units;
 mod value_kind;

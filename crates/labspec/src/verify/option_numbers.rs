@@ -185,7 +185,7 @@ fn required_range(e: &Expr) -> Option<RequiredRange> {
 }
 
 /// Whether a comparison requires its left side, or its right one if `flipped`, to be smaller; `None` for an equality.
-fn is_below(op: BinaryOp, flipped: bool) -> Option<bool> {
+pub(super) fn is_below(op: BinaryOp, flipped: bool) -> Option<bool> {
     match op {
         BinaryOp::Less | BinaryOp::LessEqual => Some(!flipped),
         BinaryOp::Greater | BinaryOp::GreaterEqual => Some(flipped),
@@ -220,7 +220,7 @@ fn multiple(e: &Expr) -> Option<(f64, &Expr)> {
 }
 
 /// The argument of `abs(…)`.
-fn magnitude(e: &Expr) -> Option<&Expr> {
+pub(super) fn magnitude(e: &Expr) -> Option<&Expr> {
     let ExprKind::Call { callee, args, .. } = &e.kind else { return None };
     let named = match &callee.kind {
         ExprKind::Name(name) => name == "abs",
@@ -259,7 +259,7 @@ fn around(inner: &Expr, off: f64) -> Option<RequiredRange> {
 }
 
 /// The value of an expression that contains only numbers.
-fn constant(e: &Expr) -> Option<f64> {
+pub(super) fn constant(e: &Expr) -> Option<f64> {
     match &e.kind {
         ExprKind::Number(x) => Some(*x),
         ExprKind::Unary { op: UnaryOp::Minus, operand } => constant(operand).map(|x| -x),

@@ -6,9 +6,11 @@ use super::condition::ConditionMargin;
 use super::format::shorten;
 use super::found::MeasuredValue;
 use super::grounded::{decided_value, grounded_value};
+use super::loose_tolerance::check_tolerance;
 use super::option_numbers::check_option_numbers;
 use super::outcome::MeasuredRuns;
 use super::outcomes::Outcomes;
+use super::stated_numbers::check_stated_numbers;
 use super::survival::{fragile_answer, verdict_by, withstand_numerics};
 use super::verdict::{Answer, Verdict, Weight};
 use crate::finding::Finding;
@@ -57,6 +59,15 @@ pub(super) fn check_options(
         check_option_numbers(bound, &outcomes.nominal, options, conditions, &holds, findings)
     {
         return judgement.judged(Verdict::Failed, reason);
+    }
+    let texts = if form == AnswerForm::Statement { std::slice::from_ref(&question.q) } else { options };
+    let stated = texts.iter().zip(conditions).zip(&holds).filter(|(_, holds)| **holds == Some(true));
+    let stated: Vec<(&Text, &Text)> = stated.map(|(both, _)| both).collect();
+    if let Some(reason) = check_stated_numbers(bound, &outcomes.nominal, question, &stated, findings) {
+        return judgement.judged(Verdict::Failed, reason);
+    }
+    for (_, condition) in &stated {
+        check_tolerance(bound, &outcomes.nominal, condition, findings);
     }
     if judgement.is_alone(undecided.len()) {
         return judgement.judged(Verdict::Failed, "no other option is decided".to_string());

@@ -12,6 +12,7 @@ use crate::finding::Finding;
 use crate::json::read::named;
 use crate::rules;
 use crate::run::{self, Budget, End, Play, RunError, Session, Start, StepVariant, StopTime};
+use crate::spec::{Control, ControlKind};
 use labspec_core::reflect::{FieldId, option};
 use labspec_core::{AccessSet, Model, Plan, integrator};
 use labspec_expr::{Effects, Program, Value, Watch};
@@ -82,6 +83,35 @@ fn key(request: &RunRequest<'_, '_>) -> String {
     let controls: Vec<_> = run.controls.iter().map(|(label, x)| (label.as_str(), x)).collect();
     let labs = format!("{:?} {} {:?} {:?}", lab.span, scene.scene.model.identity(), lab.key, lab.controller);
     format!("{labs} {of_run:?} {controls:?} {numerics:?} {texts:?}")
+}
+
+/// A text of the settings of a run: equal for runs that are the same simulation. A control that a run does not set has its value.
+pub(super) fn settings_key(scene: &BoundScene<'_>, run: &BoundRun<'_>) -> String {
+    let lab = &scene.scene.lab;
+    let own = run.spec.map_or(&[][..], |spec| &spec.set);
+    let value = |control: &Control| {
+        let set = own.iter().rev().find(|(label, _)| label.as_str() == control.label.as_str());
+        match (set, &control.kind) {
+            (Some((_, value)), _) => Some(format!("{:?}", scalar(value))),
+            (None, ControlKind::Slider { value, .. }) => Some(format!("{:?}", Value::Number(value.value))),
+            (None, ControlKind::Select { value, .. }) => Some(format!("{:?}", scalar(value))),
+            (None, _) => None,
+        }
+    };
+    let controls: Vec<Option<String>> = lab.controls.iter().map(value).collect();
+    let others: Vec<&str> = own
+        .iter()
+        .map(|(label, _)| label.as_str())
+        .filter(|label| !lab.controls.iter().any(|control| control.label.as_str() == *label))
+        .collect();
+    let of_run = run.spec.map(|spec| {
+        let press: Vec<_> = spec.press.iter().map(|(label, t)| (label.as_str(), t.value)).collect();
+        let length = [&spec.until, &spec.steps].map(|n| n.as_ref().map(|n| n.value));
+        let code = [&spec.setup, &spec.stop].map(|t| t.as_ref().map(|t| t.as_str()));
+        format!("{press:?} {length:?} {code:?}")
+    });
+    let labs = format!("{:?} {} {:?} {:?}", lab.span, scene.scene.model.identity(), lab.key, lab.controller);
+    format!("{labs} {of_run:?} {controls:?} {others:?}")
 }
 
 /// A run after its setup, and the data for playing it.

@@ -124,6 +124,9 @@ const QUANTITY_WORDS: [(&str, &[&str]); 34] = [
     ("power", &["W"]),
 ];
 
+/// The number of words behind a factor that tell what it is a factor of.
+const NEAR_WORDS: usize = 3;
+
 /// The words of a text.
 fn split_words(text: &str) -> impl Iterator<Item = &str> {
     text.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty())
@@ -167,9 +170,24 @@ pub(in crate::verify) fn option_ratio(option: &str) -> Option<OptionRatio> {
             .any(|list| last_word(before, list, Languages::ALL).is_some());
     let behind = folded.get(place.end..)?;
     let may_be = readings(x, share, before, behind);
-    let named = QUANTITY_WORDS.iter().filter(|(word, _)| split_words(&folded).any(|w| w == *word));
-    let named = named.flat_map(|(_, units)| units.iter().filter_map(|unit| units::parse(unit))).collect();
+    // Example: `it takes longer from twice the height` is about a factor of the height.
+    let near: String = behind
+        .split(['.', ',', ';', ':'])
+        .next()
+        .unwrap_or("")
+        .split_whitespace()
+        .take(NEAR_WORDS)
+        .collect::<Vec<_>>()
+        .join(" ");
+    let near = named_quantities(&near);
+    let named = if near.is_empty() { named_quantities(&folded) } else { near };
     (!is_bound).then_some(OptionRatio { text, may_be, named })
+}
+
+/// The dimensions of the quantities that the words of a text name.
+fn named_quantities(text: &str) -> Vec<Dimension> {
+    let named = QUANTITY_WORDS.iter().filter(|(word, _)| split_words(text).any(|w| w == *word));
+    named.flat_map(|(_, units)| units.iter().filter_map(|unit| units::parse(unit))).collect()
 }
 
 /// The words for factors in a text, with their places.
@@ -271,6 +289,7 @@ mod tests {
             |text: &str, measured: &Dimension| option_ratio(text).unwrap().names_another(Some(measured));
         assert!(!names("half as long", &time) && names("half as long", &speed));
         assert!(!names("half", &time) && names("four times the height", &speed));
+        assert!(names("it takes longer from twice the height", &time));
         let height = option_ratio("four times the height").unwrap().of_another();
         assert!(height.contains(&2.0) && height.contains(&0.5) && !height.contains(&5.0));
     }

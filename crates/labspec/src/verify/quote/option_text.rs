@@ -74,6 +74,23 @@ pub(in crate::verify) fn option_text(option: &str, languages: Languages) -> Opti
     Some(OptionNumber { text, low, high, unit, alone: has_no_content(&rest) })
 }
 
+/// All quantities with a unit of their own that a text states, each with the range of values that agree with it. Numbers that
+/// belong to another expression are left out.
+pub(in crate::verify) fn quantities_in(text: &str, languages: Languages) -> Vec<OptionNumber> {
+    let (rendered, _) = html::strip(text);
+    let (folded, _) = fold::fold(&rendered, false);
+    let folded = spelled(&folded.replace("**", "").replace("__", ""));
+    let chars: Vec<char> = folded.chars().take(2000).collect();
+    let chars = Chars(&chars);
+    let stated = |q: &Quantity| {
+        let unit = q.unit.clone().filter(|u| u.is_own() && u.dimension.is_some() && !u.is_doubtful())?;
+        let before = chars.text(q.whole.start.saturating_sub(30), q.whole.start).to_lowercase();
+        let (low, high) = stated_range(q, before.trim_end(), languages)?;
+        Some(OptionNumber { text: chars.text(q.whole.start, q.whole.end), low, high, unit, alone: false })
+    };
+    quantities(chars).iter().filter_map(stated).collect()
+}
+
 /// Whether the words after a number make it a comparison: `7 m farther` is a change; `7 m, no more` is not.
 fn compares(behind: &str) -> bool {
     let words = behind.split_whitespace().take(3).map(|w| w.trim_matches(|c: char| !c.is_alphanumeric()));

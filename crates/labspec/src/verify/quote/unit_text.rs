@@ -48,6 +48,11 @@ impl Unit {
         share(&self.text)
     }
 
+    /// The factor that converts a percentage to a fraction of one; `None` for other units.
+    pub(in crate::verify) fn percentage(&self) -> Option<f64> {
+        self.share().map(|power| 10f64.powi(power))
+    }
+
     /// Whether it follows its number or is shared with another one, and is not a name of counted things.
     pub(super) fn is_own(&self) -> bool {
         self.link != Link::Clause && !self.is_counted()
