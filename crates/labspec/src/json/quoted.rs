@@ -90,6 +90,10 @@ impl JsonParser<'_> {
                 }
                 '\n' | '\r' if !self.goes_on(quote, next, key) => return self.line_ends(from, offset, key),
                 _ if quote == '"' && c == '"' => {
+                    if self.is_of_attribute(from, offset) {
+                        offset = next;
+                        continue;
+                    }
                     if self.json_follows(next) {
                         return StringEnd { inside: from..offset, next, open: false };
                     }
@@ -179,6 +183,19 @@ impl JsonParser<'_> {
         }
     }
 
+    /// Whether the double quote at `offset`, in a text that begins at `from`, opens or closes the value of an attribute: the text
+    /// is XML that was pasted with its double quotes.
+    fn is_of_attribute(&self, from: usize, offset: usize) -> bool {
+        let text = self.text;
+        let before = text.get(from..offset).unwrap_or("");
+        let behind = text.get(offset + 1..).unwrap_or("").trim_start();
+        before.starts_with('<')
+            && (before.ends_with('=')
+                || behind.starts_with('>')
+                || behind.starts_with("/>")
+                || begins_attribute(behind))
+    }
+
     /// The end of a text without its closing quote, if the double quote at `offset` begins the next text.
     fn lost_quote(&mut self, from: usize, offset: usize, key: bool) -> Option<usize> {
         let content = self.text.get(from..offset)?.trim_end();
@@ -215,6 +232,12 @@ fn value_follows(text: &str) -> bool {
         Some(c) if c.is_ascii_digit() || is_typographic(c) => true,
         Some(_) => begins_key(text) || begins_word(text),
     }
+}
+
+/// Whether a text begins with a name, an equals sign and a quote, as an attribute of XML does.
+fn begins_attribute(text: &str) -> bool {
+    let behind = text.trim_start_matches(|c: char| c.is_alphanumeric() || matches!(c, '_' | '-' | ':'));
+    behind.len() < text.len() && (behind.starts_with("=\"") || behind.starts_with("='"))
 }
 
 /// Whether a text begins with a name without quotes and a colon.

@@ -3,13 +3,13 @@ use super::wording::{TextNumber, numbers, plain};
 use crate::spec::{Question, QuestionKind};
 use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
-/// The explanation of a numeric question gives a different number than its answer.
+/// The explanation of a numeric question gives a different number than its answer, or that of a statement the other answer.
 pub const ANSWER_AGAINST_EXPLANATION: &Rule = &Rule {
     code: "answer-against-explanation",
     severity: Severity::Warning,
     exceptions: &[],
     layer: Layer::Structure,
-    summary: "the explanation of a numeric question gives a different number than its answer",
+    summary: "the explanation of a question gives a different number than its answer, or calls a true statement false",
     why: "a student who follows the explanation gets a number that is graded as wrong",
     bad: Example::Quiz(
         r#"{"id": "fall", "questions": [{"kind": "numeric", "q": "How fast, in m/s?", "answer": ⟦12.65⟧, "tol": 0.05, "unit": "m/s", "explain": "$v = \\sqrt{2 g h}$ = 12.64 m/s."}]}"#,
@@ -26,16 +26,50 @@ const SAME_NUMBER: f64 = 0.02;
 /// The number of characters before and after a number that are searched for its unit and meaning.
 const CONTEXT_LENGTH: usize = 60;
 /// How a common mistake changes a number.
-const MISTAKE_FACTORS: [(f64, &str); 6] = [
+const MISTAKE_FACTORS: [(f64, &str); 10] = [
     (-1.0, "the sign differs"),
     (10.0, "the explanation gives a tenth of the answer"),
     (100.0, "the explanation gives a hundredth of the answer"),
     (0.1, "the explanation gives ten times the answer"),
     (0.01, "the explanation gives a hundred times the answer"),
+    (1000.0, "the explanation gives a thousandth of the answer"),
+    (0.001, "the explanation gives a thousand times the answer"),
+    (180.0 / std::f64::consts::PI, "the explanation gives the answer in radians"),
+    (std::f64::consts::PI / 180.0, "the explanation gives the answer in degrees"),
     (2.0, "the explanation gives half of the answer"),
 ];
 
+/// Words with which an explanation begins that calls the statement true, or false.
+const TRUE_WORDS: [&str; 9] =
+    ["true", "right", "correct", "yes", "wahr", "richtig", "vrai", "verdadero", "vero"];
+const FALSE_WORDS: [&str; 7] = ["false", "wrong", "incorrect", "no", "falsch", "faux", "falso"];
+
+/// Reports an explanation of a statement that begins with the other answer.
+fn check_statement(question: &Question, findings: &mut Vec<Finding>) {
+    let (Some(key), Some(explain)) = (question.key(), &question.explain) else { return };
+    let Some(right) = question.keyed().map(|right| !right.is_empty()) else { return };
+    let text = plain(explain.as_str());
+    let text = text.trim_start_matches(|c: char| !c.is_alphanumeric());
+    let end = text.find(|c: char| !c.is_alphanumeric()).unwrap_or(text.len());
+    let (word, behind) = (text.get(..end).unwrap_or("").to_lowercase(), text.get(end..).unwrap_or(""));
+    // `True friction …` is not an answer.
+    let stands_alone =
+        behind.trim_start().starts_with(['.', ':', ',', ';', '!', '—', '–', '*']) || behind.trim().is_empty();
+    let says = |list: &[&str]| list.contains(&word.as_str()) && stands_alone;
+    if (right && says(&FALSE_WORDS)) || (!right && says(&TRUE_WORDS)) {
+        let message = format!("the answer is {right}, but its explanation begins with \"{word}\"");
+        findings.push(
+            Finding::new(ANSWER_AGAINST_EXPLANATION, key.span.clone(), message)
+                .related(explain.span(), "the explanation")
+                .help("correct the answer or the explanation"),
+        );
+    }
+}
+
 fn check_question(question: &Question, findings: &mut Vec<Finding>) {
+    if matches!(question.kind, QuestionKind::TrueFalse { .. }) {
+        return check_statement(question, findings);
+    }
     let QuestionKind::Numeric { answer: Some(answer), unit, .. } = &question.kind else { return };
     let Some(explain) = &question.explain else { return };
     let key = answer.value;

@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Decided in `verify/identical_runs.rs`.
+/// Decided by `check_identical_runs` in `verify/identical_runs.rs`.
 pub const IDENTICAL_RUNS: &Rule = &Rule {
     code: "identical-runs",
     severity: Severity::Warning,

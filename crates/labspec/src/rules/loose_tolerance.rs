@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Decided in `verify/loose_tolerance.rs`.
+/// Decided by `check_tolerance` in `verify/loose_tolerance.rs`.
 pub const LOOSE_TOLERANCE: &Rule = &Rule {
     code: "loose-tolerance",
     severity: Severity::Warning,

@@ -167,18 +167,31 @@ pub(super) fn read_key(fields: &mut Fields<'_, '_>, options: &[Text]) -> Option<
         fields.problems.push(Mistake::AnswerText(index).at(answer.span.clone()));
         return None;
     }
-    let value = read_answer(answer, several, fields)?;
+    let value = read_answer(answer, several, &named, fields)?;
     Some(AnswerKey { span: answer.span.clone(), value, hash_beside: hash.map(|node| node.span.clone()) })
 }
 
-fn read_answer(node: &Node, several: bool, fields: &mut Fields<'_, '_>) -> Option<KeyValue> {
+/// Reads the key. `named`: the index of the option with this text or letter.
+fn read_answer(
+    node: &Node,
+    several: bool,
+    named: &dyn Fn(&Text) -> Option<usize>,
+    fields: &mut Fields<'_, '_>,
+) -> Option<KeyValue> {
     if several {
         let Json::Array(items) = &node.json else {
             wrong_key(fields.problems, node, "answer", Expected::List);
             return None;
         };
-        let all: Vec<Option<Number>> =
-            items.iter().map(|item| whole(item, "answer", fields.problems)).collect();
+        let mut index = |item: &Node| match &item.json {
+            Json::Text(text) if named(text).is_some() => {
+                let index = named(text)?;
+                fields.problems.push(Mistake::AnswerText(index).at(item.span.clone()));
+                None
+            }
+            _ => whole(item, "answer", fields.problems),
+        };
+        let all: Vec<Option<Number>> = items.iter().map(&mut index).collect();
         return Some(KeyValue::Options(all.into_iter().collect::<Option<_>>()?));
     }
     if fields.takes_flag("answer") {

@@ -95,6 +95,7 @@ pub use quote::{
     RenderedText, Stated, Style, Unread, answered, claimed, counted, folded, numbers_in_outputs, plain,
     quoted, stated,
 };
+pub(crate) use quote::{asked_unit, differ_in_scale};
 pub use quote_checker::Quote;
 pub use reads::labels;
 pub use run_cache::{BoundLab, RunCache};

@@ -41,12 +41,14 @@ pub(super) fn check_number(
         Ok(value) => value,
         Err(reason) => return Answer::failed(reason),
     };
-    let asked = asked.as_ref();
+    // Without a unit beside the field, the student answers in the unit of the text.
+    let in_text = quote::asked_unit(question.q.as_str()).filter(|_| asked.is_none());
+    let asked = asked.as_ref().map(|unit| unit.as_str()).or(in_text.as_deref());
     let measured = asked.and_then(|_| units::of_claim(bound, &outcomes.nominal, text));
     let gives = measured.as_ref().map(written);
-    let unit = quote::answer_unit(asked.map(|u| u.as_str()), measured);
+    let unit = quote::answer_unit(asked, measured);
     let mut key = NumericKey { answer, tol, span: keyed.span.clone(), text, factor: unit.factor(), gives };
-    if let Some(share) = asked.and_then(|unit| quote::percentage(unit.as_str())) {
+    if let Some(share) = asked.and_then(quote::percentage) {
         key.factor = key.nearest_factor([1.0, share], value.value.to_number());
     }
     if let Some(refused) = key.refuse_unit(&unit, findings) {
@@ -84,7 +86,7 @@ pub(super) fn check_number(
     {
         return judged(verdict, reason);
     }
-    let uncompared = unit == quote::AnswerUnit::Unknown && asked.is_some_and(|u| quote::is_unit(u.as_str()));
+    let uncompared = unit == quote::AnswerUnit::Unknown && asked.is_some_and(quote::is_unit);
     let reason = if uncompared { UNIT_NOT_COMPARED.to_string() } else { String::new() };
     Answer { verdict: verdict_by(Some(value.evidence)), reason, weights }
 }

@@ -235,7 +235,7 @@ fn no_limit(find: &Find, ends: [bool; 2]) -> Option<NoLimit> {
     let [from, to] = find.range.map(significant);
     match (ends, find.largest) {
         ([true, true], _) => {
-            let message = format!("this holds over the whole range from {from} to {to}");
+            let message = format!("this holds at both ends of the range from {from} to {to}");
             Some((message, "widen the range, or ask for something that has a limit"))
         }
         ([false, false], _) => {

@@ -80,7 +80,7 @@ fn contradiction(
         let is_bound = !(q.low.is_finite() && q.high.is_finite());
         let known = if is_bound { compared.get(..1).unwrap_or_default() } else { &all };
         let measured = combinations(known, |known| of(q, known)).into_iter();
-        let mut values = measured.flat_map(|x| [x, -x]);
+        let mut values = measured.flat_map(|x| if is_bound { [x, x] } else { [x, -x] });
         values.any(|x| q.low <= x && x <= q.high) || given.iter().any(|x| is_number_of(q, *x))
     };
     if about_it.iter().any(|q| agrees(q)) {

@@ -1,6 +1,6 @@
 //! Angles in the wrong unit, and gravity in the wrong direction: numbers that are right in the conventions of another program.
 
-use super::{digits, format_name};
+use super::{digits, format_name, own_name};
 use crate::kinds::{angle, biastype, geom, joint, trntype};
 use crate::mjcf::gather::listed;
 use crate::mjcf::rules;
@@ -22,12 +22,14 @@ const EARTH: (f64, f64) = (9.81, 0.03);
 
 pub(super) fn check_angles(tree: &ElementTree, m: &Model, report: &mut Diagnostics) {
     let radians = tree.sections("compiler").any(|(_, n)| n.keyword("angle") == Some(angle::RADIAN));
-    if !radians {
-        for node in tree.nodes.iter().filter(|n| n.model == 0) {
-            radians_for_degrees(tree, node, report);
+    for node in tree.nodes.iter().filter(|n| n.model == 0) {
+        match radians {
+            true => degrees_in_range(tree, node, report),
+            false => radians_for_degrees(tree, node, report),
         }
     }
-    degrees_for_radians(tree, m, report);
+    degrees_of_servo(tree, m, report);
+    degrees_in_keys(tree, m, report);
     gravity(tree, m, report);
 }
 
@@ -97,8 +99,57 @@ fn rounded_radians(x: f64) -> Option<f64> {
     (steps != 0.0 && steps.abs() <= MAX_STEPS && DECIMALS.into_iter().any(matches)).then_some(steps * STEP)
 }
 
+/// Reports a range of a joint that is written in degrees, although the model is in radians.
+fn degrees_in_range(tree: &ElementTree, node: &ElementNode, report: &mut Diagnostics) {
+    let Some(range) = node.attribute("range").filter(|_| node.element.name == "joint" && turns(tree, node))
+    else {
+        return;
+    };
+    let Value::Reals(all) = &range.value else { return };
+    if !all.iter().all(|x| x % 5.0 == 0.0) || !all.iter().any(|x| x.abs() > LARGE_TARGET) {
+        return;
+    }
+    let turns = all.iter().fold(0.0, |most: f64, x| most.max(x.abs())) / (2.0 * PI);
+    let meant = listed(all.iter().map(|x| digits(x.to_radians()))).join(" ");
+    report
+        .warning(
+            rules::ANGLE_UNIT,
+            range.span.clone(),
+            format!("`range` allows {} turns: it looks like degrees", digits(turns)),
+        )
+        .why("angles of this model are read in radians, because its `compiler` says `angle=\"radian\"`")
+        .help(format!("write {meant}, which is the same range in radians"));
+}
+
+/// Reports keyframes that turn a joint by a number of radians that is a usual angle in degrees.
+fn degrees_in_keys(tree: &ElementTree, m: &Model, report: &mut Diagnostics) {
+    let nodes: Vec<&ElementNode> =
+        listed(tree.sections("keyframe").flat_map(|(i, _)| tree.children(i).map(|(_, n)| n)));
+    for (k, node) in nodes.iter().enumerate().take(m.nkey) {
+        let Some(qpos) = node.attribute("qpos") else { continue };
+        let hinges = (0..m.njnt).filter(|j| m.jnt_type.get(*j) == Some(&joint::HINGE));
+        let looks_like_degrees = |j: usize| {
+            let adr = usize::try_from(*m.jnt_qposadr.get(j)?).ok()?;
+            let x = *m.key_qpos.get(k * m.nq + adr)?;
+            (x.abs() >= STEP && x % STEP == 0.0).then_some((j, x))
+        };
+        let Some((j, x)) = hinges.into_iter().find_map(looks_like_degrees) else { continue };
+        let name = m.names.of_kind(Obj::Joint).get(j).map_or("", String::as_str);
+        let message = format!(
+            "{} turns {} by {} radians: it looks like degrees",
+            format_name("key", own_name(node).unwrap_or(""), k),
+            format_name("joint", name, j),
+            digits(x)
+        );
+        report
+            .warning(rules::ANGLE_UNIT, qpos.span.clone(), message)
+            .why("positions in a keyframe are always radians")
+            .help(format!("write {} for this joint", digits(x.to_radians())));
+    }
+}
+
 /// Reports position servos whose targets are the range of their joint in degrees.
-fn degrees_for_radians(tree: &ElementTree, m: &Model, report: &mut Diagnostics) {
+fn degrees_of_servo(tree: &ElementTree, m: &Model, report: &mut Diagnostics) {
     let nodes: Vec<&ElementNode> =
         listed(tree.sections("actuator").flat_map(|(i, _)| tree.children(i).map(|(_, n)| n)));
     if nodes.len() != m.nactuator || m.nu != m.nactuator {

@@ -1,6 +1,7 @@
 //! Quoted numbers: they are found in the rendered text, read, and compared with the simulation at the printed precision.
 
 mod arithmetic;
+mod asked_unit;
 mod check_quote;
 mod clause_unit;
 mod context;
@@ -35,6 +36,7 @@ mod unit_check;
 mod unit_text;
 mod words;
 
+pub(crate) use asked_unit::{asked_unit, differ_in_scale};
 pub(super) use check_quote::{check_quote, places_of_quote};
 pub(super) use heading::operation_in_heading;
 pub(super) use markdown_cell::unit_of_head;
