@@ -76,7 +76,9 @@ fn settle<'l>(
 /// The dimension of the value of a control, by its unit.
 pub fn given_by(control: &Control) -> Measure {
     let unit = match &control.kind {
-        ControlKind::Slider { unit: Some(unit), .. } => labels::unit(unit.as_str()),
+        ControlKind::Slider { unit: Some(unit), .. } => {
+            labels::unit_beside(unit.as_str(), control.label.as_str())
+        }
         _ => labels::of_label(control.label.as_str()).map(|(_, d)| d),
     };
     unit.map_or(Measure::Unknown, Measure::Dimension)

@@ -7,8 +7,32 @@ use labspec_expr::dimension::Dimension;
 const AMBIGUOUS_UNITS: [&str; 14] =
     ["A", "C", "K", "L", "V", "T", "g", "h", "l", "1", "ft", "lb", "bar", "rev"];
 
-/// The dimension of the unit of a control.
-pub(crate) fn unit(text: &str) -> Option<Dimension> {
+/// Words for quantities, with the unit that an ambiguous symbol then is: `mass (g)` is in grams.
+const QUANTITY_WORDS: [(&str, &[&str]); 12] = [
+    ("mass", &["g"]),
+    ("masse", &["g"]),
+    ("masa", &["g"]),
+    ("massa", &["g"]),
+    ("weight", &["g"]),
+    ("time", &["h"]),
+    ("duration", &["h"]),
+    ("zeit", &["h"]),
+    ("temperature", &["K", "C"]),
+    ("volume", &["L", "l"]),
+    ("length", &["ft"]),
+    ("height", &["ft"]),
+];
+
+/// The dimension of a unit beside a label. Words of the label decide what an ambiguous symbol means.
+pub(crate) fn unit_beside(text: &str, label: &str) -> Option<Dimension> {
+    let text = text.trim();
+    let words = || label.split(|c: char| !c.is_alphabetic()).map(str::to_lowercase);
+    let meant = |(word, units): &(&str, &[&str])| units.contains(&text) && words().any(|w| w == *word);
+    if QUANTITY_WORDS.iter().any(meant) { parse(text) } else { unit(text) }
+}
+
+/// The dimension of a unit without a label.
+fn unit(text: &str) -> Option<Dimension> {
     let text = text.trim();
     if AMBIGUOUS_UNITS.contains(&text) { None } else { parse(text) }
 }
@@ -29,7 +53,7 @@ pub fn of_label(label: &str) -> Option<(&str, Dimension)> {
     if !(before.is_empty() || before.ends_with(char::is_whitespace)) {
         return None;
     }
-    Some((text, unit(text)?))
+    Some((text, unit_beside(text, before)?))
 }
 
 /// The unit of the heading of a column, with its dimension: `error (mm)`, `t [ms]`, `x / mm`, `time in ms`, `depth, mm`,

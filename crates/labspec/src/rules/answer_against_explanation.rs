@@ -83,30 +83,46 @@ fn check_question(question: &Question, findings: &mut Vec<Finding>) {
         return;
     }
     let unit = unit.as_ref().map_or(String::new(), |u| plain_unit(u.as_str()));
-    let result = |n: &&TextNumber| (n.significant >= 2 || n.decimals >= 2) && is_result(html, n, &unit);
-    for n in all.iter().filter(result) {
+    let in_its_unit = |n: &&TextNumber| !unit.is_empty() && has_unit(html, n, &unit);
+    let only = all.iter().filter(in_its_unit).count() == 1;
+    let result = |n: &&TextNumber| {
+        let precise = n.significant >= 2 || n.decimals >= 2;
+        precise && (is_result(html, n, &unit) || only && in_its_unit(n))
+    };
+    let tolerance = question.numeric().map_or(0.0, |(_, tol)| tol.abs());
+    let results: Vec<&TextNumber> = all.iter().filter(result).collect();
+    let slip_of = |n: &&TextNumber| {
         let slip = MISTAKE_FACTORS.iter().find(|(by, _)| is(n, key / by, decimals + 2) && n.value != 0.0);
-        let why = match slip {
-            _ if (n.value - key).abs() <= SAME_NUMBER * key.abs() => "the printed digits differ",
+        match slip {
+            _ if (n.value - key).abs() <= SAME_NUMBER * key.abs() => Some("the printed digits differ"),
             _ if ((n.value - key).abs() - 0.1_f64.powi(decimals as i32)).abs() < 1e-9 => {
-                "the last digits differ by one"
+                Some("the last digits differ by one")
             }
-            Some((_, words)) => words,
-            None => continue,
-        };
-        let printed = html.get(n.span.clone()).unwrap_or("");
-        let sign = if n.value < 0.0 { "-" } else { "" };
-        findings.push(
-            Finding::new(
-                ANSWER_AGAINST_EXPLANATION,
-                answer.span.clone(),
-                format!("the answer is {key}, but its explanation gives {sign}{printed}: {why}"),
-            )
+            slip => slip.map(|(_, words)| *words),
+        }
+    };
+    let slipped = results.iter().find_map(|n| Some((*n, slip_of(n)?)));
+    // No number of the explanation is the answer: its last result in the unit of the answer is another one.
+    let last = results.last().filter(|n| in_its_unit(n) && (n.value - key).abs() > tolerance);
+    let Some((n, why)) = slipped.or(last.map(|n| (*n, "no number in the explanation is the answer"))) else {
+        return;
+    };
+    let printed = html.get(n.span.clone()).unwrap_or("");
+    let sign = if n.value < 0.0 { "-" } else { "" };
+    let message = format!("the answer is {key}, but its explanation gives {sign}{printed}: {why}");
+    findings.push(
+        Finding::new(ANSWER_AGAINST_EXPLANATION, answer.span.clone(), message)
             .related(explain.span_of(n.span.clone()), "the explanation")
             .help("compute it again, and write the same number in both places"),
-        );
-        return;
-    }
+    );
+}
+
+/// Whether the unit of the answer follows a number.
+fn has_unit(html: &str, n: &TextNumber, unit: &str) -> bool {
+    let after: String = html.get(n.span.end..).unwrap_or("").chars().take(CONTEXT_LENGTH).collect();
+    let after = plain_unit(&plain(&after));
+    let behind = after.strip_prefix(unit).and_then(|rest| rest.chars().next());
+    after.starts_with(unit) && !behind.is_some_and(|c| c.is_alphanumeric() || c == '/' || c == '·')
 }
 
 /// Whether a number is the result of a line of the explanation: it follows `=`, `≈`, `:` or `is`, and has the unit of the answer.

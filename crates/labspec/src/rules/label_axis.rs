@@ -2,8 +2,8 @@ use crate::bind::{Bound, Programs};
 use crate::source::Text;
 use crate::spec::Lab;
 use labspec_bind::{describe_element, element_axis};
-use labspec_core::reflect::FieldId;
 use labspec_core::Model;
+use labspec_core::reflect::FieldId;
 use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// A label names a direction, but its expression reads a coordinate of another direction.

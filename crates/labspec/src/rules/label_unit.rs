@@ -1,5 +1,7 @@
 use super::label_names_another::names;
-use crate::bind::{Bound, ControlProgram, Programs, contradicts, given_by, in_degrees, of_label, unit};
+use crate::bind::{
+    Bound, ControlProgram, Programs, contradicts, given_by, in_degrees, of_label, unit_beside,
+};
 use crate::check::observations::{ObservedLab, column};
 use crate::json::read::shorten;
 use crate::run::Cell;
@@ -191,7 +193,11 @@ fn stores<'t>(
 /// The text that gives the unit of a control: its `unit`, or else its label.
 fn unit_text(control: &Control) -> &Text {
     match &control.kind {
-        ControlKind::Slider { unit: Some(text), .. } if unit(text.as_str()).is_some() => text,
+        ControlKind::Slider { unit: Some(text), .. }
+            if unit_beside(text.as_str(), control.label.as_str()).is_some() =>
+        {
+            text
+        }
         _ => &control.label,
     }
 }

@@ -47,7 +47,7 @@ fn radians_for_degrees(tree: &ElementTree, node: &ElementNode, report: &mut Diag
         let Some(degrees) = degrees.filter(|d| d.iter().any(|x| *x != 0.0)) else { continue };
         let [given, meant] = [angles, &degrees].map(|l| listed(l.iter().map(|x| digits(*x))).join(" "));
         let name = attribute.attr.name;
-        let message = format!("`{name}` is {given} degrees, which is {meant} in radians");
+        let message = format!("`{name}` is {given}, in degrees: as radians it would be {meant} degrees");
         report
             .warning(rules::ANGLE_UNIT, attribute.span.clone(), message)
             .why("angles of this model are read in degrees, because its `compiler` does not say `angle=\"radian\"`")
