@@ -266,7 +266,12 @@ fn prepare<'l>(
     let (model, programs, mistakes) = bind(lab, models, findings)?;
     if level.programs {
         setconst::check_setconst(lab, &model, &programs, findings);
+        let lost = findings.len();
         rules::lost_at_reset::check_resets(lab, &model, &programs, findings);
+        // What a control sets and a reset discards is reported once.
+        if mistakes == 0 && findings.len() == lost {
+            rules::start_not_reset::check_start(lab, &model, &programs, findings);
+        }
         units::check_units(lab, &model, &programs, findings);
         rules::label_names_another::check_names(lab, &model, &programs, findings);
         rules::label_axis::check_axes(lab, &model, &programs, findings);
