@@ -1,7 +1,7 @@
 //! The grammar of units.
 //!
 //! ```text
-//! unit   = factor { [ "/" | "per" | "·" | "*" | "×" | " " | "" ] factor }
+//! unit   = factor { [ "/" | "per" | "a" | "·" | "*" | "×" | " " | "" ] factor }
 //! factor = ( symbol | name | "%" | "1" | "(" unit ")" ) [ power ]
 //! power  = [ "^" | "**" ] integer | raised digits | "squared" | "cubed"
 //! ```
@@ -47,6 +47,11 @@ fn link(text: &str) -> IResult<&str, bool> {
     let spaces = || take_while(|c| c == ' ');
     alt((
         value(true, (char(' '), alt((tag("per "), tag("pro "), tag("par "), tag("por "))))),
+        value(true, (char(' '), alt((tag("in der "), tag("je "), tag("à la "), tag("al "), tag("all'"))))),
+        value(
+            true,
+            (char(' '), alt((tag("a "), tag("an "), tag("each "), tag("every "))), peek(time_of_rate)),
+        ),
         value(true, (space(), one_of("/⁄÷∕每毎"), spaces())),
         value(false, (space(), one_of("·⋅*×∙•"), spaces())),
         // `m.s^-1`: a point separates factors if the next one has a power.
@@ -54,6 +59,20 @@ fn link(text: &str) -> IResult<&str, bool> {
         value(false, space()),
     ))
     .parse(text)
+}
+
+/// Parses a time after `a` that makes it a divisor: `metres a second`. In `3 metres a second later` and `a second ball` it is
+/// another phrase.
+fn time_of_rate(text: &str) -> IResult<&str, &str> {
+    const TIMES: [&str; 7] = ["second", "minute", "hour", "day", "week", "month", "year"];
+    const NEXT: [&str; 28] = [
+        "and", "or", "but", "as", "at", "on", "in", "for", "with", "when", "while", "if", "by", "to", "from",
+        "than", "is", "are", "was", "here", "there", "upon", "just", "squared", "per", "a", "each", "every",
+    ];
+    let (rest, word) = alpha1(text)?;
+    let next = rest.strip_prefix(' ').unwrap_or("").split(|c: char| !c.is_alphabetic()).next().unwrap_or("");
+    let ends = !rest.starts_with([' ', '-']) || NEXT.contains(&next);
+    if TIMES.contains(&word) && ends { Ok((rest, word)) } else { fail().parse(text) }
 }
 
 /// Parses a unit with its power. `first` states whether `1` is allowed here.

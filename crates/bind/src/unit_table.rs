@@ -39,7 +39,7 @@ const POWER: &[(usize, i32)] = &[(KG, 1), (M, 2), (S, -3)];
 const PRESSURE: &[(usize, i32)] = &[(KG, 1), (M, -1), (S, -2)];
 
 /// The symbols of units, case-sensitive, and names in scripts without capital letters.
-const UNITS: [UnitRow; 50] = [
+const UNITS: [UnitRow; 52] = [
     UnitRow("rad", 1.0, ANGLES, true),
     UnitRow("deg", PI / 180.0, ANGLES, false),
     UnitRow("°", PI / 180.0, ANGLES, false),
@@ -65,6 +65,8 @@ const UNITS: [UnitRow; 50] = [
     UnitRow("bar", 1e5, PRESSURE, true),
     UnitRow("Hz", 1.0, &[(S, -1)], true),
     UnitRow("rpm", 2.0 * PI / 60.0, &[(ANGLE, 1), (S, -1)], false),
+    UnitRow("rps", 2.0 * PI, &[(ANGLE, 1), (S, -1)], false),
+    UnitRow("bpm", 1.0 / 60.0, &[(S, -1)], false),
     UnitRow("mph", 0.447_04, &[(M, 1), (S, -1)], false),
     UnitRow("kph", 1.0 / 3.6, &[(M, 1), (S, -1)], false),
     UnitRow("V", 1.0, &[(KG, 1), (M, 2), (S, -3), (A, -1)], true),
@@ -105,7 +107,7 @@ const NAMED: [UnitRow; 8] = [
 ];
 
 /// Names of units in lower case without a plural `s`: their size in the unit of a symbol, and that symbol.
-const WORDS: [(&str, f64, &str); 107] = [
+const WORDS: [(&str, f64, &str); 108] = [
     ("radian", 1.0, "rad"),
     ("degree", 1.0, "°"),
     ("grad", 1.0, "°"),
@@ -188,6 +190,7 @@ const WORDS: [(&str, f64, &str); 107] = [
     ("secondi", 1.0, "s"),
     ("minuti", 60.0, "s"),
     ("ore", 3600.0, "s"),
+    ("ora", 3600.0, "s"),
     ("tag", 86400.0, "s"),
     ("tage", 86400.0, "s"),
     ("tagen", 86400.0, "s"),
@@ -216,7 +219,7 @@ const WORDS: [(&str, f64, &str); 107] = [
 ];
 
 /// The prefixes of unit names.
-const NAMED_PREFIXES: [(&str, i32); 20] = [
+const NAMED_PREFIXES: [(&str, i32); 24] = [
     ("pico", -12),
     ("nano", -9),
     ("micro", -6),
@@ -226,6 +229,10 @@ const NAMED_PREFIXES: [(&str, i32); 20] = [
     ("zenti", -2),
     ("deci", -1),
     ("kilo", 3),
+    ("chilo", 3),
+    ("kiló", 3),
+    ("mili", -3),
+    ("centí", -2),
     ("mega", 6),
     ("giga", 9),
     ("毫", -3),
@@ -322,7 +329,7 @@ pub(crate) fn symbol(word: &str) -> Option<Dimension> {
         None => {
             let prefixes = PREFIXES
                 .iter()
-                .chain(NAMED_PREFIXES.iter().filter(|(p, _)| !p.is_ascii()))
+                .chain(NAMED_PREFIXES.iter().filter(|(p, _)| p.starts_with(is_wide)))
                 .filter(|(p, _)| !p.is_empty());
             let mut short = prefixes.filter_map(|(prefix, power)| {
                 let found = row(word.strip_prefix(prefix)?).filter(|row| row.3)?;
@@ -339,11 +346,12 @@ pub(crate) fn symbol(word: &str) -> Option<Dimension> {
 
 /// A symbol after a prefix that is written as a word: `millis`, `kiloN`.
 fn spelled(word: &str) -> Option<(&'static UnitRow, f64)> {
-    let mut found = NAMED_PREFIXES.iter().filter(|(p, _)| p.is_ascii()).filter_map(|(prefix, power)| {
-        let (head, tail) = word.split_at_checked(prefix.len())?;
-        let row = UNITS.iter().find(|row| row.3 && row.0 == tail)?;
-        head.eq_ignore_ascii_case(prefix).then_some((row, 10f64.powi(*power)))
-    });
+    let mut found =
+        NAMED_PREFIXES.iter().filter(|(p, _)| !p.starts_with(is_wide)).filter_map(|(prefix, power)| {
+            let (head, tail) = word.split_at_checked(prefix.len())?;
+            let row = UNITS.iter().find(|row| row.3 && row.0 == tail)?;
+            head.eq_ignore_ascii_case(prefix).then_some((row, 10f64.powi(*power)))
+        });
     found.next()
 }
 
@@ -354,7 +362,7 @@ fn named(word: &str) -> Option<(f64, &'static str)> {
     let any = |word: &str| one(word).or_else(|| one(word.strip_suffix('s')?));
     any(word).or_else(|| {
         let mut prefixed =
-            NAMED_PREFIXES.iter().filter(|(p, _)| p.is_ascii()).filter_map(|(prefix, power)| {
+            NAMED_PREFIXES.iter().filter(|(p, _)| !p.starts_with(is_wide)).filter_map(|(prefix, power)| {
                 let (size, base) = any(word.strip_prefix(prefix)?)?;
                 Some((size * 10f64.powi(*power), base))
             });

@@ -138,6 +138,18 @@ mod tests {
             ("ミリメートル", "mm"),
             ("千克", "kg"),
             ("rpm", "rad/s, times 9.549"),
+            ("bpm", "1/s, times 60"),
+            ("metre per second per second", "m/s^2"),
+            ("metres a second", "m/s"),
+            ("metres a second a second", "m/s^2"),
+            ("kilometres an hour", "m/s, times 3.6"),
+            ("metres every second", "m/s"),
+            ("Meter in der Sekunde", "m/s"),
+            ("Meter je Sekunde", "m/s"),
+            ("mètres à la seconde", "m/s"),
+            ("metri al secondo", "m/s"),
+            ("chilometri all'ora", "m/s, times 3.6"),
+            ("kilómetros por hora", "m/s, times 3.6"),
         ] {
             let d = parse(text).unwrap_or_else(|| panic!("{text}"));
             assert_eq!(written(&d), expected, "{text}");
@@ -179,6 +191,12 @@ mod tests {
         assert_eq!(parsed("°C"), Some((3, None)));
         assert_eq!(parsed("N m/rad s"), Some((9, None)));
         assert_eq!(parsed("balls"), None);
+        assert_eq!(parsed("metres a second on the moon"), symbol(15, "m/s"));
+        for text in
+            ["metres a second later", "metres a second time", "metres a second-hand", "metres a day later"]
+        {
+            assert_eq!(parsed(text), symbol(6, "m"), "{text}");
+        }
     }
 
     /// A text of 100 kB of characters with which a unit may begin is parsed fast, without deep recursion.

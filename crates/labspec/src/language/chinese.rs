@@ -17,4 +17,6 @@ pub(super) static CHINESE: Language = Language {
     parts: &[],
     of: &[],
     operators: &[],
+    between: &[("介于", "和"), ("介于", "与")],
+    from: &[],
 };

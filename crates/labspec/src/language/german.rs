@@ -9,6 +9,13 @@ pub(super) static GERMAN: Language = Language {
     slightly_more: &["etwas mehr als", "etwas über", "gut"],
     largest: &["bis zu"],
     lower_bounds: &[
+        "nicht weniger als",
+        "übersteigt",
+        "übersteigen",
+        "überschreitet",
+        "überschreiten",
+        "übertrifft",
+        "übertreffen",
         "mehr als",
         "größer als",
         "länger als",
@@ -20,6 +27,9 @@ pub(super) static GERMAN: Language = Language {
         "oberhalb von",
     ],
     upper_bounds: &[
+        "unterschreitet",
+        "unterschreiten",
+        "maximal",
         "weniger als",
         "kleiner als",
         "kürzer als",
@@ -53,4 +63,6 @@ pub(super) static GERMAN: Language = Language {
     ],
     of: &["von", "der", "des", "vom"],
     operators: &["mal", "plus", "minus", "durch"],
+    between: &[("zwischen", "und")],
+    from: &[("von", "bis"), ("vom", "bis")],
 };

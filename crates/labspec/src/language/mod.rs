@@ -42,6 +42,10 @@ pub struct Language {
     pub of: &'static [&'static str],
     /// Between two numbers, they compute with them: `times`.
     pub operators: &'static [&'static str],
+    /// Before the first number of a range, and between its two numbers: `between 3 and 5`.
+    pub between: &'static [(&'static str, &'static str)],
+    /// The same, where the words may also state a change from one number to the other: `von 3 bis 5`.
+    pub from: &'static [(&'static str, &'static str)],
 }
 
 /// All languages.

@@ -50,7 +50,7 @@ pub(crate) fn check_start(lab: &Lab, model: &Model, programs: &Programs, finding
         let bound = action.run.as_ref()?;
         bound.text.as_str().contains("mj_setConst").then_some((control, bound))
     });
-    let span = lab.key.as_ref().map_or(lab.span.start..lab.span.start + 1, |key| key.span());
+    let span = lab.key.as_ref().map_or(lab.span.clone(), |key| key.span.clone());
     let finding = Finding::new(START_NOT_RESET, span, message);
     findings.push(match setconst {
         Some((control, bound)) => finding

@@ -208,7 +208,8 @@ fn check_cell(
         Stands::Words(words) => check_word_cell(checker, text, words, member, findings),
         Stands::Number(expr) => {
             let expr = part(expr, member);
-            let places = vec![quote::QuotePlace { span: text.span(), unit: unit.clone() }];
+            let unit = unit.clone().or_else(|| checker.rendered.unit_in_row(&text.span()));
+            let places = vec![quote::QuotePlace { span: text.span(), unit }];
             let claim = quote::QuoteClaim { quote: text, part: text.as_str(), expr: &expr };
             let part = quote::whole(text.as_str(), checker.bound.stage().languages());
             match QuotedValue::measure(checker, &expr, findings) {

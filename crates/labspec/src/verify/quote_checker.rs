@@ -138,6 +138,16 @@ fn value_of(
     Some(OtherValue { how, value: found.value.to_number() })
 }
 
+/// Whether an expression, or a measure that it reads, is a reciprocal of a period that is not multiplied by 2π.
+fn counts_turns(bound: &BoundVerify<'_>, expr: &str) -> bool {
+    let is_read =
+        |name: &str| expr.split(|c: char| !c.is_alphanumeric() && c != '_').any(|word| word == name);
+    let measures = bound.measure_texts().filter(|(name, _)| is_read(name)).map(|(_, text)| text);
+    let texts: Vec<&str> = measures.chain([expr]).collect();
+    let has = |word: &str| texts.iter().any(|text| text.contains(word));
+    has("period(") && !has("PI") && !has("6.28")
+}
+
 /// Checks a quoted number.
 pub(super) fn check_number(
     checker: QuoteChecker<'_, '_>,
@@ -149,7 +159,9 @@ pub(super) fn check_number(
 ) -> Quote {
     let unit = &|| units::of_claim(checker.bound, &checker.outcomes.nominal, claim.expr);
     let computed = given.found.value.to_number();
-    let value = quote::QuoteValue { computed, timestep: &given.timestep, start: &given.start, unit };
+    let counts_turns = counts_turns(checker.bound, claim.expr.as_str());
+    let value =
+        quote::QuoteValue { computed, timestep: &given.timestep, start: &given.start, unit, counts_turns };
     let mut found = Vec::new();
     let mut o = quote::check_quote(claim, &part.reading, places, &value, checker.rendered, &mut found);
     if let Some(read) = o.read.filter(|_| o.state != QuoteState::Unclear) {

@@ -52,9 +52,13 @@ fn check_line(
         [_] if numbers == 1 => vec![quote::whole(quoted.quote.as_str(), languages)],
         _ => quote::parts(quoted.quote.as_str(), numbers, languages),
     };
-    if parts.len() != numbers {
+    let others = match exprs.as_slice() {
+        [_] if numbers == 1 => quote::other_numbers(quoted.quote.as_str(), languages),
+        _ => 0,
+    };
+    if parts.len() + others != numbers {
         let [printed, given] =
-            [(parts.len(), "number"), (numbers, "expression")].map(|(n, one)| counted(n, one));
+            [(parts.len() + others, "number"), (numbers, "expression")].map(|(n, one)| counted(n, one));
         let verb = if numbers == 1 { "gives" } else { "give" };
         let message = format!("the quote has {printed}, but {given} {verb} one");
         findings.push(

@@ -7,7 +7,7 @@ use super::quote_claim::{OtherValue, QuoteClaim, QuoteOutcome, QuotePlace, Quote
 use super::read::{QuoteReading, Unread};
 use super::rendered::RenderedText;
 use super::unit;
-use super::unit_check::{UnitMatch, conversion, hold, is_power_of_ten};
+use super::unit_check::{UnitMatch, conversion, hold, is_angular_rate, is_power_of_ten, without_pure_factor};
 use super::unit_text::{Link, Unit};
 use crate::finding::Finding;
 use crate::source::Text;
@@ -117,10 +117,17 @@ impl<'q> QuoteComparison<'q> {
         value: &QuoteValue<'_>,
     ) -> QuoteComparison<'q> {
         let measured = match reading.unit.is_some() || places.iter().any(|p| p.unit.is_some()) {
-            true => (value.unit)(),
+            true => (value.unit)().map(without_pure_factor),
             false => None,
         };
         let unit = unit_at(reading, places, measured.as_ref());
+        // The reciprocal of a period counts turns, which are not radians.
+        let in_radians = |unit: &Unit| unit.dimension.is_some_and(|d| is_angular_rate(&d) && d.is_exact());
+        let is_turns = value.counts_turns && measured.is_some_and(|found| !found.has_angle());
+        let unit = unit.map(|(unit, unit_match)| match is_turns && in_radians(&unit) {
+            true => (unit, UnitMatch::Wrong),
+            false => (unit, unit_match),
+        });
         // Minutes and degrees are converted. A factor that is a power of ten is reported instead.
         let expected = unit.as_ref().and_then(|(unit, _)| unit.dimension);
         let factor = expected.zip(measured).and_then(|(expected, found)| conversion(&expected, &found));

@@ -18,7 +18,7 @@ fn checked(quote: &str, computed: f64, half: &[f64], starts: &[f64]) -> (QuoteOu
     let starts: Vec<_> = starts.iter().map(other("with a start moved by 1e-14")).collect();
     let mut findings = Vec::new();
     let rendered = RenderedText::of_lesson(&lesson);
-    let value = QuoteValue { computed, timestep: &half, start: &starts, unit: &|| None };
+    let value = QuoteValue { computed, timestep: &half, start: &starts, unit: &|| None, counts_turns: false };
     let claim = QuoteClaim { quote: &says.quote, part: says.quote.as_str(), expr: &says.exprs[0] };
     let places = places_of_quote(&says.quote, None, &rendered);
     let outcome = check_quote(&claim, &read_quote(quote), places, &value, &rendered, &mut findings);

@@ -3,11 +3,13 @@
 
 use super::arithmetic::is_multiplied;
 use super::denial::is_denied;
+use super::modifier::ends_with;
 use super::numeral::Chars;
 use crate::language::Languages;
-use labspec_bind::units::is_wide;
+use labspec_bind::units::{self, is_wide};
 
 pub(super) const BOUND: &str = "a bound, not a number";
+const COMPARISON: &str = "a number that something is compared with";
 pub(super) const PLUS_MINUS: &str = "a plus-minus sign without its number";
 pub(super) const FORMULA: &str = "a formula";
 pub(super) const DIFFERENCE: &str = "a difference or a range";
@@ -17,8 +19,73 @@ pub(super) const LETTERS: &str = "a number followed by letters";
 /// Number of characters that are read on either side.
 pub(super) const MAX_CONTEXT: usize = 40;
 
-/// Words before a number that exclude it.
-const EXCLUSIONS: [&str; 2] = ["other than", "different from"];
+/// Words before a number that exclude it, or compare something with it.
+const EXCLUSIONS: [&str; 48] = [
+    "different from",
+    "differs from",
+    "differ from",
+    "outside",
+    "outside of",
+    "except",
+    "except for",
+    "excluding",
+    "apart from",
+    "instead of",
+    "unlike",
+    "contrary to",
+    "far off",
+    "way off",
+    "misses",
+    "avoids",
+    "fails to reach",
+    "failing to reach",
+    "fails to attain",
+    "unable to reach",
+    "scarcely",
+    "rarely",
+    "seldom",
+    "außerhalb",
+    "außerhalb von",
+    "außer",
+    "anders als",
+    "statt",
+    "anstatt",
+    "anstelle von",
+    "verfehlt",
+    "abgesehen von",
+    "hors de",
+    "en dehors de",
+    "sauf",
+    "au lieu de",
+    "loin de",
+    "excepté",
+    "fuera de",
+    "excepto",
+    "salvo",
+    "en vez de",
+    "en lugar de",
+    "lejos de",
+    "fuori da",
+    "eccetto",
+    "tranne",
+    "invece di",
+];
+
+/// Adverbs between a bound and its number: `more than about 3 m/s`, `surpasses even 3 m/s`.
+const ADVERBS: [&str; 12] = [
+    "only",
+    "just",
+    "even",
+    "still",
+    "exactly",
+    "precisely",
+    "sogar",
+    "selbst",
+    "genau",
+    "même",
+    "incluso",
+    "persino",
+];
 
 /// Words before a number that change its value.
 const CHANGING_WORDS: [&str; 70] = [
@@ -182,6 +249,8 @@ pub(super) fn before(chars: Chars<'_>, start: usize) -> Option<&'static str> {
         '=' if matches!(previous, Some('<' | '>' | '!' | '≠' | '+' | '-' | '*' | '/')) => Some(BOUND),
         '±' | '∓' => Some(PLUS_MINUS),
         '/' if previous == Some('+') => Some(PLUS_MINUS),
+        '–' if !attached && is_dash(chars, index - 1) => None,
+        '–' if !attached && is_dash(chars, index - 1) => None,
         '-' | '–' => Some(DIFFERENCE),
         '√' | '×' | '·' | '*' | '/' | '+' | '÷' | '^' | '_' | '∙' | '∕' | '⁄' | '|' | '\\' | '∝' | '≠'
         | '¬' | '#' | '@' | '!'
@@ -215,10 +284,79 @@ pub(super) fn before(chars: Chars<'_>, start: usize) -> Option<&'static str> {
     }
 }
 
+/// Whether a spaced dash at an index is punctuation: it follows a word that is not part of a formula or a unit.
+fn is_dash(chars: Chars<'_>, index: usize) -> bool {
+    if chars.before(index) != Some(' ') {
+        return false;
+    }
+    let near = chars.text(index.saturating_sub(MAX_CONTEXT), index);
+    let line = near.rsplit(['\n', ';']).next().unwrap_or("").trim_end();
+    let mut words = line.rsplit(' ');
+    let last = words.next().unwrap_or("").trim_end_matches(|c: char| !c.is_alphanumeric());
+    let number = |word: &str| word.contains(|c: char| c.is_numeric());
+    let of_unit = units::is_unit(last) && words.next().is_some_and(number);
+    let is_word =
+        last.chars().count() > 1 && last.chars().all(|c| c.is_alphabetic() || matches!(c, '-' | '\''));
+    is_word && !of_unit && !line.contains(['=', '\\', '+'])
+}
+
 fn unspaced_before(chars: Chars<'_>, index: usize) -> Option<&'static str> {
     let near = chars.text(index.saturating_sub(8), index);
     let figure = near.chars().next_back().is_some_and(|c| FIGURES.contains(c));
     (figure || UNSPACED_CHANGING_WORDS.into_iter().any(|w| near.ends_with(w))).then_some(UNKNOWN_PREFIX)
+}
+
+/// Whether a text ends with a bound or an exclusion, in any language: a bound is no number.
+fn is_bound(line: &str) -> bool {
+    let lower = Languages::ALL.words_of(|language| language.lower_bounds);
+    let mut bounds = lower.chain(Languages::ALL.words_of(|language| language.upper_bounds)).chain(EXCLUSIONS);
+    bounds.any(|word| ends_with(line, word)) || ends_with(line, "than") && !ends_with(line, "no more than")
+}
+
+/// The text without the adverbs at its end.
+fn without_adverbs(line: &str) -> &str {
+    let approximate = || Languages::ALL.words_of(|language| language.approximate);
+    let mut line = line;
+    while let Some(word) = ADVERBS.into_iter().chain(approximate()).find(|word| ends_with(line, word)) {
+        line = line.strip_suffix(word).unwrap_or("").trim_end();
+    }
+    line
+}
+
+/// Whether a text ends with a comparison that makes the number another one: `half as fast as`, `halb so schnell wie`,
+/// `plus rapide que`.
+fn is_compared(line: &str) -> bool {
+    let clause = line.rsplit(['.', ',', ';', ':', '(', '—']).next().unwrap_or("");
+    let Some((rest, last)) = clause.trim_end().rsplit_once(' ') else { return false };
+    let words: Vec<&str> = rest.split(' ').rev().take(6).collect();
+    let is_factor = |word: &&str| {
+        let listed = |list: &[&str]| list.contains(word);
+        let number = word.starts_with(|c: char| c.is_ascii_digit());
+        number || Languages::ALL.iter().any(|l| listed(l.multiples) || listed(l.parts) || listed(l.numerals))
+    };
+    let is_degree = |word: &&str| {
+        const DEGREES: [&str; 11] = [
+            "plus",
+            "moins",
+            "más",
+            "menos",
+            "mayor",
+            "menor",
+            "mejor",
+            "supérieur",
+            "supérieure",
+            "più",
+            "meno",
+        ];
+        DEGREES.contains(word)
+    };
+    let times = |word: &&str| matches!(*word, "fois" | "veces" | "volte" | "mal") || word.ends_with("mal");
+    match last {
+        "as" | "wie" | "come" => words.iter().any(is_factor) || words.iter().any(times),
+        "que" => words.iter().any(is_factor) || words.iter().any(is_degree) || words.iter().any(times),
+        "als" => true,
+        _ => false,
+    }
 }
 
 /// The reason why the words that end at `index` change the meaning of the number.
@@ -228,12 +366,16 @@ fn words_before(chars: Chars<'_>, index: usize) -> Option<&'static str> {
     let ends =
         |word: &str| line.strip_suffix(word).is_some_and(|rest| !rest.ends_with(char::is_alphanumeric));
     // `up to` and `no more than` state the largest value itself.
-    let largest = ["no more than", "no less than"].into_iter().any(ends);
-    // Whatever the language of the lesson: a bound is no number.
-    let lower = Languages::ALL.words_of(|language| language.lower_bounds);
-    let mut bounds = lower.chain(Languages::ALL.words_of(|language| language.upper_bounds)).chain(EXCLUSIONS);
-    if bounds.any(ends) && !largest {
+    let largest = ends("no more than");
+    if is_bound(&line) && !largest {
         return Some(BOUND);
+    }
+    let head = without_adverbs(&line);
+    if head.len() < line.len() && (is_bound(head) || is_denied(head)) {
+        return Some(COMPARISON);
+    }
+    if is_compared(&line) {
+        return Some(COMPARISON);
     }
     if CHANGING_WORDS.into_iter().any(ends)
         || is_multiplied(&line)

@@ -3,6 +3,7 @@
 use super::arithmetic::computes;
 use super::clause_unit::{is_sure, is_word};
 use super::context::{BOUND, DIFFERENCE, FIGURES, FORMULA, LETTERS, MAX_CONTEXT};
+use super::denial::is_denied_after;
 use super::numeral::{Chars, fraction};
 use labspec_bind::units::{self, is_wide};
 
@@ -46,6 +47,9 @@ const UNSPACED_CHANGING_WORDS: [&str; 19] = [
 /// The function is long because it is one table: a row for each character that may follow a quantity.
 pub(super) fn after(chars: Chars<'_>, end: usize, has_unit: bool) -> Option<&'static str> {
     let c = chars.at(end)?;
+    if is_denied_after(&chars.text(end, end + MAX_CONTEXT).to_lowercase()) {
+        return Some(DENIED);
+    }
     let next = chars.skip_blanks(end);
     let after_blank = next > end;
     let number_at = |i: usize| {
@@ -208,6 +212,7 @@ const PART_WORDS: [&str; 18] = [
 ];
 
 const ADJACENT_NUMBER: &str = "a number directly followed by another one";
+const DENIED: &str = "a number that the words after it deny";
 const UNKNOWN_SUFFIX: &str = "a number that the words after it modify";
 
 fn words_after(chars: Chars<'_>, index: usize) -> Option<&'static str> {

@@ -2,18 +2,88 @@
 //! the time differs.
 
 /// Words that negate a verb, and the number of following words that they affect.
-const VERB_NEGATIONS: ([&str; 7], usize) =
-    (["not", "never", "cannot", "hardly", "nicht", "nie", "jamais"], 3);
+const VERB_NEGATIONS: ([&str; 24], usize) = (
+    [
+        "not",
+        "never",
+        "cannot",
+        "hardly",
+        "nowhere",
+        "nicht",
+        "nie",
+        "niemals",
+        "nimmer",
+        "nirgends",
+        "keinesfalls",
+        "keineswegs",
+        "mitnichten",
+        "kaum",
+        "jamais",
+        "nullement",
+        "aucunement",
+        "nunca",
+        "jamás",
+        "tampoco",
+        "mai",
+        "non",
+        "neppure",
+        "nemmeno",
+    ],
+    3,
+);
 
 /// Words that negate a noun: `without spin it takes 0.44 s` does not negate the time.
-const NOUN_NEGATIONS: ([&str; 7], usize) = (["no", "nor", "neither", "without", "kein", "keine", "pas"], 2);
+const NOUN_NEGATIONS: ([&str; 21], usize) = (
+    [
+        "no", "nor", "neither", "without", "kein", "keine", "keinen", "keinem", "keiner", "weder", "ohne",
+        "pas", "ni", "sans", "aucun", "aucune", "sin", "ningún", "ninguna", "senza", "nessun",
+    ],
+    2,
+);
 
 /// Words that end the effect of a negation: `not until 0.44 s`, `not only 0.44 s`, `whether or not it tips over`.
-const ENDS: [&str; 13] =
-    ["until", "only", "just", "even", "before", "because", "that", "if", "when", "and", "or", "but", "with"];
+const ENDS: [&str; 26] = [
+    "until",
+    "only",
+    "just",
+    "even",
+    "before",
+    "because",
+    "that",
+    "if",
+    "when",
+    "and",
+    "or",
+    "but",
+    "with",
+    "nur",
+    "erst",
+    "und",
+    "oder",
+    "aber",
+    "seulement",
+    "et",
+    "mais",
+    "sólo",
+    "solo",
+    "y",
+    "pero",
+    "sondern",
+];
 
 /// Phrases that negate a whole clause.
-const CLAUSES: [&str; 11] = [
+const CLAUSES: [&str; 22] = [
+    "by no means",
+    "in no way",
+    "on no account",
+    "under no circumstances",
+    "auf keinen fall",
+    "in keinem fall",
+    "falsch, dass",
+    "falsch dass",
+    "en aucun cas",
+    "en ningún caso",
+    "in nessun caso",
     "wrong that",
     "false that",
     "untrue that",
@@ -52,9 +122,167 @@ pub(super) fn is_denied(line: &str) -> bool {
     })
 }
 
+/// Verbs with which a clause about the number before them begins.
+const VERBS: [&str; 49] = [
+    "is", "are", "was", "were", "be", "can", "could", "cannot", "would", "will", "do", "does", "did", "has",
+    "have", "must", "should", "seems", "ist", "sind", "war", "waren", "wäre", "wären", "wird", "werden",
+    "kann", "können", "est", "sont", "était", "serait", "peut", "n'est", "ne", "es", "son", "era", "sería",
+    "puede", "no", "è", "sono", "sarebbe", "non", "nicht", "c'est", "may", "might",
+];
+
+/// Words that make such a clause state something else than the number.
+const WRONG: [&str; 47] = [
+    "wrong",
+    "false",
+    "incorrect",
+    "untrue",
+    "impossible",
+    "nonsense",
+    "mistaken",
+    "erroneous",
+    "inaccurate",
+    "unattainable",
+    "unreachable",
+    "exceeded",
+    "surpassed",
+    "missed",
+    "unrealistic",
+    "falsch",
+    "unmöglich",
+    "unrichtig",
+    "unwahr",
+    "inkorrekt",
+    "unerreichbar",
+    "überschritten",
+    "unterschritten",
+    "übertroffen",
+    "verfehlt",
+    "faux",
+    "fausse",
+    "inexact",
+    "inexacte",
+    "erroné",
+    "erronée",
+    "dépassé",
+    "dépassée",
+    "dépassés",
+    "falso",
+    "falsa",
+    "incorrecto",
+    "incorrecta",
+    "erróneo",
+    "imposible",
+    "superado",
+    "superada",
+    "sbagliato",
+    "sbagliata",
+    "errato",
+    "errata",
+    "impossibile",
+];
+
+/// Words after `not` with which the clause does not deny the number: `0.44 s is not enough`.
+const HARMLESS: [&str; 20] = [
+    "only",
+    "just",
+    "merely",
+    "much",
+    "many",
+    "enough",
+    "far",
+    "a",
+    "an",
+    "the",
+    "surprising",
+    "long",
+    "nur",
+    "viel",
+    "genug",
+    "seulement",
+    "beaucoup",
+    "mucho",
+    "molto",
+    "because",
+];
+
+/// Number of words of such a clause that are read.
+const MAX_WORDS: usize = 5;
+
+/// Whether the words after a number, in lower case, deny it: `0.44 s is wrong`, `0.44 s cannot be right`.
+pub(super) fn is_denied_after(line: &str) -> bool {
+    let marked = line.trim_start_matches([' ', ',', '–', '—', '-', ':', '(', '?', '!', '"', '”', '»']);
+    let clause = marked.split(['.', ',', ';', ':', '(', ')', '—', '–', '?', '!', '\n']).next().unwrap_or("");
+    let mut words: Vec<&str> = clause.split_whitespace().take(MAX_WORDS + 1).collect();
+    let is_relative = words.first().is_some_and(|word| matches!(*word, "which" | "that"));
+    if is_relative {
+        words.remove(0);
+    }
+    let Some(first) = words.first() else { return false };
+    if WRONG.contains(first) {
+        return true;
+    }
+    let is_negation = |word: &str| {
+        VERB_NEGATIONS.0.contains(&word)
+            || matches!(word, "no" | "pas" | "kein" | "keine")
+            || word.ends_with("n't")
+            || word.ends_with("n’t")
+    };
+    // `0.44 s, no more` does not deny the number.
+    let goes_on = is_relative || line.trim_start().len() == marked.len();
+    if !goes_on || !VERBS.contains(first) && !is_negation(first) {
+        return false;
+    }
+    words.iter().take(MAX_WORDS).enumerate().any(|(i, word)| {
+        let next = words.get(i + 1).copied().unwrap_or("");
+        WRONG.contains(word)
+            || is_negation(word) && !HARMLESS.contains(&next)
+            || *word == "too"
+                && matches!(
+                    next,
+                    "high" | "low" | "large" | "small" | "much" | "little" | "long" | "fast" | "slow"
+                )
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn words_after_a_number_deny_it() {
+        for line in [
+            " is wrong",
+            " cannot be right",
+            " isn't right",
+            " would be impossible",
+            " is never reached",
+            ", which is wrong",
+            " – wrong",
+            " is too high",
+            " ist falsch",
+            " wird nie erreicht",
+            " n'est pas atteint",
+            " es falso",
+            " è sbagliato",
+        ] {
+            assert!(is_denied_after(line), "{line}");
+        }
+        for line in [
+            " is right",
+            " is not much",
+            " is not a coincidence",
+            " is the speed",
+            ". It is not fast",
+            ", and it does not stop",
+            ", no more",
+            ", not 0.45 s",
+            " on the moon",
+            " wird erreicht",
+            "",
+        ] {
+            assert!(!is_denied_after(line), "{line}");
+        }
+    }
 
     #[test]
     fn a_denial_reaches_a_few_words_of_its_clause() {
@@ -65,6 +293,12 @@ mod tests {
             "It is wrong that it takes ",
             "it moves without ",
             "it tips, but does not fall after ",
+            "der Ball ist niemals ",
+            "er erreicht keinesfalls ",
+            "la bille n'atteint jamais ",
+            "la bola nunca alcanza ",
+            "non raggiunge mai ",
+            "sie ist auf keinen Fall ",
         ] {
             assert!(is_denied(line), "{line}");
         }

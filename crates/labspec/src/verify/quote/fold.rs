@@ -2,7 +2,7 @@
 //! source or as on the page.
 
 use super::html::TEXT_SEPARATOR;
-use super::siunitx;
+use super::{equations, siunitx};
 use crate::markdown::tex;
 use crate::source::SourceMap;
 use nom::combinator::verify;
@@ -21,9 +21,9 @@ pub(super) fn fold(text: &str, flat: bool) -> (String, SourceMap) {
         glue: true,
         row: None,
     };
-    let mut offset = 0;
+    let (mut offset, mut aligned) = (0, 0_usize);
     while let Some(rest) = text.get(offset..).filter(|rest| !rest.is_empty()) {
-        let plain = rest.bytes().take_while(|&b| is_plain(b)).count();
+        let plain = rest.bytes().take_while(|&b| is_plain(b) && (b != b'&' || aligned == 0)).count();
         if plain > 0 {
             out.run(rest.get(..plain).unwrap_or(""), offset);
             offset += plain;
@@ -33,6 +33,23 @@ pub(super) fn fold(text: &str, flat: bool) -> (String, SourceMap) {
         if let Ok((tail, rendered)) = siunitx::quantity(rest) {
             let end = text.len() - tail.len();
             out.whole(&rendered, offset..end);
+            offset = end;
+            continue;
+        }
+        if let Some((tail, begins)) = equations::environment(rest) {
+            aligned = if begins { aligned + 1 } else { aligned.saturating_sub(1) };
+            out.wait(offset..text.len() - tail.len());
+            offset = text.len() - tail.len();
+            continue;
+        }
+        if let Some(tail) = equations::line_end(rest).filter(|_| aligned > 0) {
+            out.wait(offset..text.len() - tail.len());
+            offset = text.len() - tail.len();
+            continue;
+        }
+        if let Some((tail, unit)) = equations::fraction_of_units(rest) {
+            let end = text.len() - tail.len();
+            out.whole(&unit, offset..end);
             offset = end;
             continue;
         }
@@ -46,7 +63,11 @@ pub(super) fn fold(text: &str, flat: bool) -> (String, SourceMap) {
             offset += 2;
             continue;
         }
-        let (what, length) = if c == '\\' { command(rest) } else { (meaning(c, flat), c.len_utf8()) };
+        let (what, length) = match c {
+            '\\' => command(rest),
+            '&' if aligned > 0 => (Meaning::Space, 1),
+            _ => (meaning(c, flat), c.len_utf8()),
+        };
         let range = offset..offset + length;
         match what {
             Meaning::Space => out.wait(range),
@@ -272,6 +293,19 @@ mod tests {
         assert_eq!(fold("0.4–0.5", false).0, "0.4–0.5");
         assert_eq!(f("a\u{1} \u{1}b"), "a\nb");
         assert_eq!(f("\\frac{1}{2} \\"), "\\frac1⁄2 \\");
+        let aligned =
+            "$$\\begin{aligned} v &= \\sqrt{2gh} \\\\[4pt] &= 3.96\\,\\mathrm{m/s}\\end{aligned}$$ a & b";
+        assert_eq!(f(aligned), "v = \\sqrt2gh = 3.96 m/s a & b");
+        for text in [
+            "\\frac{\\mathrm{m}}{\\mathrm{s}}",
+            "\\tfrac{\\text{m}}{\\text{s}}",
+            "\\dfrac{m}{s}",
+            "\\frac{\\rm m}{\\rm s}",
+        ] {
+            assert_eq!(f(&format!("$3.96\\,{text}$")), "3.96 m/s", "{text}");
+        }
+        assert_eq!(f("3.96 \\frac{\\mathrm{kg\\,m}}{\\mathrm{s}^2}"), "3.96 (kg m)/(s^2)");
+        assert_eq!(f("\\frac{m}{s}^2, \\frac{m}{k}, \\frac{0.5}{s}"), "\\fracm⁄s^2, \\fracm⁄k, \\frac0.5⁄s");
         assert_eq!(f("$\\SI{0.5}{s}$, \\phantom{3 m}０．５秒"), "0.5 s, 0.5秒");
     }
 

@@ -22,9 +22,28 @@ const WORDS: [&str; 13] = [
     " times 10",
 ];
 
+/// Words for a power of ten in which the cells count: `speed in thousands`.
+const SCALES: [&str; 10] = [
+    "thousands",
+    "millions",
+    "billions",
+    "hundreds",
+    "dozens",
+    "tausend",
+    "millionen",
+    "milliers",
+    "millones",
+    "migliaia",
+];
+
 /// The part of a heading that computes with the quantity that it names: `1000 t` in `1000 t (s)`; `None` where it only names it.
 pub(in crate::verify) fn operation_in_heading(head: &str) -> Option<String> {
     let head = rendered(head);
+    let lower = head.to_lowercase();
+    let mut words = lower.split(|c: char| !c.is_alphabetic()).skip(1);
+    if words.any(|word| SCALES.iter().any(|scale| scale.split(' ').next() == Some(word))) {
+        return Some(head);
+    }
     let label = without_unit(&head).trim();
     // `E = ½mv²` names the quantity.
     if label.contains(['=', '≈']) {
@@ -70,7 +89,9 @@ fn has_function(label: &str) -> bool {
     FUNCTIONS.iter().filter_map(|name| label.strip_prefix(name)).any(applied)
         || WORDS.iter().any(|word| {
             label.match_indices(word).any(|(start, _)| {
-                word.starts_with(' ') || start == 0 || label.get(..start).is_some_and(|t| t.ends_with(' '))
+                word.starts_with(' ')
+                    || start == 0
+                    || label.get(..start).is_some_and(|t| t.ends_with([' ', '(', '[']))
             })
         })
 }
@@ -95,6 +116,10 @@ mod tests {
             "time squared, s",
             "the square root of the time (s)",
             "t^2 / s",
+            "speed in thousands",
+            "speed (thousands)",
+            "speed (thousands of m/s)",
+            "Geschwindigkeit in Tausend",
         ] {
             assert!(operation_in_heading(head).is_some(), "{head}");
         }

@@ -8,9 +8,44 @@ use crate::source::{SourceMap, Text};
 pub(super) const TEXT_SEPARATOR: char = '\u{1}';
 
 /// Tags that change the style of text and not its position.
-const INLINE: [&str; 28] = [
-    "a", "abbr", "b", "bdi", "bdo", "big", "cite", "code", "data", "del", "dfn", "em", "font", "i", "ins",
-    "kbd", "label", "mark", "q", "s", "samp", "small", "span", "strong", "time", "u", "var", "wbr",
+const INLINE: [&str; 37] = [
+    "a",
+    "abbr",
+    "b",
+    "bdi",
+    "bdo",
+    "big",
+    "cite",
+    "code",
+    "data",
+    "del",
+    "dfn",
+    "em",
+    "font",
+    "i",
+    "ins",
+    "kbd",
+    "label",
+    "math",
+    "mi",
+    "mn",
+    "mo",
+    "mrow",
+    "mspace",
+    "mstyle",
+    "mtext",
+    "semantics",
+    "mark",
+    "q",
+    "s",
+    "samp",
+    "small",
+    "span",
+    "strong",
+    "time",
+    "u",
+    "var",
+    "wbr",
 ];
 
 /// The character that replaces a tag in the visible text.
@@ -19,6 +54,10 @@ pub(super) fn mark(tag: &HtmlTag) -> Option<char> {
         "sup" => Some('^').filter(|_| !tag.closing),
         "sub" => Some('_').filter(|_| !tag.closing),
         "br" => Some(' '),
+        // The numbers in them are parts of a formula.
+        "msqrt" | "mroot" | "mfrac" | "msup" | "msub" | "msubsup" | "munder" | "mover" => {
+            Some('√').filter(|_| !tag.closing)
+        }
         name => Some(TEXT_SEPARATOR).filter(|_| !INLINE.contains(&name)),
     }
 }
@@ -79,6 +118,8 @@ mod tests {
         assert_eq!(stripped("&#x2212;1&#8239;m &unknown; &amp;lt;"), "\u{2212}1\u{202f}m &unknown; &lt;");
         assert_eq!(stripped("0.5<span hidden> m</span> s<template>3</template>"), "0.5 s");
         assert_eq!(stripped("<table><td>1</td><td>2"), "\u{1}\u{1}1\u{1}\u{1}2");
+        assert_eq!(stripped("<math><msqrt><mn>3.96</mn></msqrt></math> m/s"), "√3.96 m/s");
+        assert_eq!(stripped("<math><mn>3.96</mn></math> m/s"), "3.96 m/s");
         for broken in ["<", "<a", "<!--", "</", "&", "&#;", "<script>", "<a href='", "&#x110000;", "<é>"] {
             stripped(broken);
         }

@@ -4,11 +4,15 @@ use super::read::read_quote;
 use super::table::rendered;
 use super::unit_text::{Link, Unit};
 use crate::bind::{behind_heading, of_heading};
+use labspec_bind::units;
+use labspec_expr::dimension::Dimension;
 
 /// A cell of a Markdown table: its row, and the heading of its column.
 pub(super) struct MarkdownCell {
     pub(super) row: String,
     pub(super) head: String,
+    /// The cell of the same row in a column of units.
+    unit: Option<String>,
 }
 
 /// Maximum number of bytes of a row, and of lines of a table.
@@ -28,14 +32,18 @@ impl MarkdownCell {
         let mut above = file.get(..start)?.lines().rev().take(ROWS);
         let rule = |line: &str| line.trim_start().starts_with('|') && line.contains("---");
         above.by_ref().take_while(|line| line.trim_start().starts_with('|')).find(|line| rule(line))?;
-        let head = above.next()?.split('|').nth(column)?.trim().to_string();
-        Some(MarkdownCell { row: row.to_string(), head })
+        let heads = above.next()?;
+        let head = heads.split('|').nth(column)?.trim().to_string();
+        let of_units = heads.split('|').position(is_head_of_units).filter(|i| *i != column);
+        let unit = of_units.and_then(|i| row.split('|').nth(i)).map(|unit| unit.trim().to_string());
+        Some(MarkdownCell { row: row.to_string(), head, unit })
     }
 }
 
 /// The unit in the heading of the column of a cell.
 pub(super) fn unit_of_column(file: &str, offset: usize) -> Option<Unit> {
-    unit_of_head(&rendered(&MarkdownCell::at(file, offset)?.head))
+    let cell = MarkdownCell::at(file, offset)?;
+    unit_of_head(&rendered(&cell.head)).or_else(|| unit_of_cell(&rendered(&cell.unit?)))
 }
 
 /// The unit of a heading: `error (mm)`, `t [ms]`, `x / mm`, `time in ms`, `depth, mm`, `t (10^-3 s)`.
@@ -44,6 +52,9 @@ pub(in crate::verify) fn unit_of_head(head: &str) -> Option<Unit> {
         Some(Unit { text: text.to_string(), dimension: Some(dimension), link: Link::Shared })
     };
     if let Some((text, dimension)) = of_heading(head) {
+        return unit(text, dimension);
+    }
+    if let Some((text, dimension)) = behind_heading(head).and_then(compared_unit) {
         return unit(text, dimension);
     }
     // A power of ten times a unit is the unit of the cells. `(10 s)` may be a time of measurement.
@@ -55,9 +66,50 @@ pub(in crate::verify) fn unit_of_head(head: &str) -> Option<Unit> {
     (power && size.is_finite() && size > 0.0).then(|| unit(text, dimension.times(1.0 / size))).flatten()
 }
 
+/// The unit at the beginning of a text that compares it: `% of earth`, `m above the floor`.
+fn compared_unit(text: &str) -> Option<(&str, Dimension)> {
+    let (unit, rest) = text.split_at_checked(units::read(text)?.length)?;
+    let next = rest.strip_prefix(' ')?.split(' ').next()?;
+    let compares = matches!(
+        next,
+        "of" | "above" | "below" | "over" | "under" | "relative" | "from" | "von" | "de" | "di"
+    );
+    Some((unit, units::parse(unit)?)).filter(|_| compares)
+}
+
+/// Whether a heading is that of a column of units.
+pub(super) fn is_head_of_units(head: &str) -> bool {
+    const HEADS: [&str; 9] =
+        ["unit", "units", "einheit", "einheiten", "unité", "unités", "unidad", "unidades", "unità"];
+    HEADS.contains(&head.trim().trim_matches('*').to_lowercase().as_str())
+}
+
+/// The unit that a cell of a column of units states.
+pub(super) fn unit_of_cell(text: &str) -> Option<Unit> {
+    let text = text.trim().trim_matches(['(', ')', '[', ']']);
+    units::is_unit(text).then(|| Unit {
+        text: text.to_string(),
+        dimension: units::parse(text),
+        link: Link::Shared,
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn units_are_in_headings_and_in_columns() {
+        for (head, expected) in
+            [("speed (% of earth)", "%"), ("height (m above the floor)", "m"), ("t (ms)", "ms")]
+        {
+            assert_eq!(unit_of_head(head).map(|unit| unit.text).as_deref(), Some(expected), "{head}");
+        }
+        assert!(unit_of_head("car (A of two)").is_none_or(|unit| unit.text == "A"));
+        let text = "| place | speed | unit |\n|---|---|---|\n| Moon | 1.61 | km/h |\n";
+        let offset = text.find("1.61").unwrap_or(0);
+        assert_eq!(unit_of_column(text, offset).map(|unit| unit.text).as_deref(), Some("km/h"));
+    }
 
     #[test]
     fn a_cell_has_its_column_head() {

@@ -45,10 +45,10 @@ impl Quantity {
     /// The quantity in languages that agree on the meaning of a comma: `1,500` is 1500 in English and 1.5 in German.
     pub(super) fn with_comma(mut self, languages: Languages) -> Quantity {
         let Some(is_decimal) = languages.decimal_comma() else { return self };
-        let NumberForm::Plain(style) = self.quoted.form else { return self };
         if is_decimal && self.is_ambiguous == Some(DECIMAL_COMMA) {
             self.is_ambiguous = None;
         }
+        let NumberForm::Plain(style) = self.quoted.form else { return self };
         if style.group != Some(',') || self.quoted.exponent != 0 {
             return self;
         }
@@ -175,7 +175,10 @@ fn share(chars: Chars<'_>, all: &mut [Quantity]) {
 fn in_words(chars: Chars<'_>, first: &Quantity, second: Option<&Quantity>) -> bool {
     second.is_some_and(|second| {
         let gap = chars.text(first.whole.end, second.whole.start);
-        first.unit.is_some() && second.unit.is_some() && matches!(gap.trim(), "and" | "to" | "bis")
+        let is_word = |pairs: &[(&str, &str)]| pairs.iter().any(|(_, link)| *link == gap.trim());
+        let is_link = matches!(gap.trim(), "and" | "to" | "bis")
+            || Languages::ALL.iter().any(|language| is_word(language.between));
+        first.unit.is_some() && second.unit.is_some() && is_link
     })
 }
 
@@ -201,13 +204,19 @@ fn pair(chars: Chars<'_>, first: &Quantity, second: &Quantity) -> NumberRelation
     if let Some(left) = part("±").or(part("+/-")).or(part("+/")) {
         return plus_minus(chars, [first, second], left, [&first_unit, &second_unit]);
     }
-    let (a, b) = (first.quoted, second.quoted);
     let link = tight.strip_prefix(first_unit.as_str()).unwrap_or(tight).trim();
     let dash = matches!(link, "-" | "–" | "—" | "~");
     let spaced = gap.starts_with(' ');
     let preceded = |word: &str| word_before(chars, first.whole.start, word);
-    let between = link == "and" && preceded("between");
+    let links = |pairs: &[(&str, &str)]| pairs.iter().any(|(word, to)| *to == link && preceded(word));
+    if is_ratio([first, second], &gap) && !preceded("from") && !links_from(&links) {
+        return ratio(first, second);
+    }
+    let between = Languages::ALL.iter().any(|language| links(language.between));
     let to = matches!(link, "to" | "bis" | "到" | "至" | "から");
+    if !to && links_from(&links) {
+        return NumberRelation::Change;
+    }
     let is_range = between || to || link == "…" || link == "..." || dash && (link != "-" || !spaced);
     if !is_range {
         return NumberRelation::Two;
@@ -215,6 +224,56 @@ fn pair(chars: Chars<'_>, first: &Quantity, second: &Quantity) -> NumberRelation
     if to && preceded("from") || matches!(link, "から") || preceded("从") {
         return NumberRelation::Change;
     }
+    range([first, second], [&first_unit, &second_unit], dash, chars)
+}
+
+/// Whether words such as `von … bis` link two numbers in any language.
+fn links_from(links: &impl Fn(&[(&str, &str)]) -> bool) -> bool {
+    Languages::ALL.iter().any(|language| links(language.from))
+}
+
+/// The range that the two numbers of a change state in a language without another word for a range: `de 3 à 5 m/s`.
+pub(super) fn range_of_change(chars: Chars<'_>, first: &Quantity, second: &Quantity) -> Option<Quantity> {
+    let gap = chars.text(first.whole.end, second.whole.start);
+    let links = |pairs: &[(&str, &str)]| {
+        pairs.iter().any(|(word, to)| *to == gap.trim() && word_before(chars, first.whole.start, word))
+    };
+    let unit_text = |q: &Quantity| chars.text(q.number_end, q.whole.end).trim().to_string();
+    match range([first, second], [&unit_text(first), &unit_text(second)], false, chars) {
+        NumberRelation::One(range) if links_from(&links) => Some(range),
+        _ => None,
+    }
+}
+
+/// Whether two numbers without a unit form a ratio to one: `2.45 to 1`, `2.45 : 1`.
+fn is_ratio([first, second]: [&Quantity; 2], gap: &str) -> bool {
+    let one = second.quoted.value == 1.0 && second.quoted.decimals == 0 && second.quoted.exponent == 0;
+    let plain =
+        matches!(first.quoted.form, NumberForm::Plain(_)) && first.unit.is_none() && second.unit.is_none();
+    let colon = matches!(gap, ":" | " : " | "∶" | " ∶ ");
+    let word = matches!(gap, " to " | "-to-" | " zu " | " à " | " contre " | " a ");
+    one && plain && (colon || word && first.quoted.value > 1.0)
+}
+
+/// A ratio to one, which is a number without a unit.
+fn ratio(first: &Quantity, second: &Quantity) -> NumberRelation {
+    NumberRelation::One(Quantity {
+        whole: first.whole.start..second.whole.end,
+        number_end: second.number_end,
+        unit: Some(Unit::ratio()),
+        refused: first.refused.or(second.refused),
+        ..first.clone()
+    })
+}
+
+/// A range of numbers. `dash` states that a dash links them.
+fn range(
+    [first, second]: [&Quantity; 2],
+    [first_unit, second_unit]: [&str; 2],
+    dash: bool,
+    chars: Chars<'_>,
+) -> NumberRelation {
+    let (a, b) = (first.quoted, second.quoted);
     let one_unit = first_unit.is_empty() || first_unit == second_unit;
     if !one_unit || a.exponent != b.exponent && a.exponent == 0 {
         return NumberRelation::Refused("a range whose ends have different units or powers of ten");
@@ -223,7 +282,22 @@ fn pair(chars: Chars<'_>, first: &Quantity, second: &Quantity) -> NumberRelation
         return NumberRelation::Refused("a difference or a range");
     }
     let form = NumberForm::Range(a.value.min(b.value), a.value.max(b.value));
-    join_pair(first, second, form, (a.value + b.value) / 2.0, second.unit.clone())
+    let joined = join_pair(first, second, form, (a.value + b.value) / 2.0, second.unit.clone());
+    with_bracketed_unit(joined, chars)
+}
+
+/// The quantity with the unit after its bracket: `(3.96 ± 0.01) m/s`.
+fn with_bracketed_unit(relation: NumberRelation, chars: Chars<'_>) -> NumberRelation {
+    let NumberRelation::One(mut q) = relation else { return relation };
+    let in_brackets = chars.before(q.whole.start) == Some('(') && chars.at(q.whole.end) == Some(')');
+    if q.unit.is_none()
+        && in_brackets
+        && let Some((unit, end)) = unit_after(chars, q.whole.end + 1)
+    {
+        q.unit = Some(unit);
+        q.whole = q.whole.start - 1..end;
+    }
+    NumberRelation::One(q)
 }
 
 /// A value with its uncertainty. `left` is the text between its number and the sign, followed by the texts of both units.
@@ -239,12 +313,13 @@ fn plus_minus(
     if !one_unit || left.is_empty() && second_unit == "%" {
         return NumberRelation::Refused("a plus-minus value with an unclear unit");
     }
-    if chars.at(second.whole.end) == Some(')') || a.exponent != b.exponent && a.exponent == 0 {
+    if a.exponent != b.exponent && a.exponent == 0 {
         return NumberRelation::Refused("a plus-minus value with an unclear power of ten");
     }
     let about = if relative { a.value * b.value / 100.0 } else { b.value }.abs();
     let unit = if relative { first.unit.clone() } else { second.unit.clone() };
-    join_pair(first, second, NumberForm::PlusMinus(a.value - about, a.value + about), a.value, unit)
+    let form = NumberForm::PlusMinus(a.value - about, a.value + about);
+    with_bracketed_unit(join_pair(first, second, form, a.value, unit), chars)
 }
 
 /// Joins two numbers into one quantity.

@@ -55,6 +55,8 @@ pub(in crate::verify) struct QuoteValue<'v> {
     pub(in crate::verify) start: &'v [OtherValue],
     /// Its dimension, where that is certain.
     pub(in crate::verify) unit: &'v dyn Fn() -> Option<Dimension>,
+    /// Whether it is the reciprocal of a period, which counts turns.
+    pub(in crate::verify) counts_turns: bool,
 }
 
 /// A quoted text, the part of it that states a number, and the expression for the number.

@@ -4,8 +4,8 @@ use super::context::{BOUND, PLUS_MINUS};
 use super::modifier::{is_approximate, modified};
 use super::number::{NumberForm, Quoted, Style};
 use super::numeral::Chars;
-use super::quantity::{Quantity, as_share, quantities, singles};
-use super::unit_text::Unit;
+use super::quantity::{Quantity, as_share, quantities, range_of_change, singles};
+use super::unit_text::{Link, Unit};
 use super::{fold, html};
 use crate::language::Languages;
 
@@ -88,12 +88,14 @@ pub(in crate::verify) fn read_quote_in(text: &str, languages: Languages) -> Resu
         return Err(if is_formula { Unread::Form("a formula") } else { Unread::NoNumber });
     };
     let Some(first) = all.get(index) else { return Err(Unread::NoNumber) };
-    if first.change {
+    let range =
+        all.get(index + 1).filter(|_| first.change).and_then(|second| range_of_change(chars, first, second));
+    if first.change && range.is_none() {
         return Err(Unread::Form("a change from one number to another, or a range"));
     }
-    let mut reading = of_quantity(chars, first, languages)?;
+    let mut reading = of_quantity(chars, range.as_ref().unwrap_or(first), languages)?;
     let several = "it contains more than one number";
-    let others = all.get(index + 1..).unwrap_or_default();
+    let others = all.get(index + 1 + usize::from(range.is_some())..).unwrap_or_default();
     reading.last = others.is_empty();
     if !matches!(reading.read.form, NumberForm::PlusMinus(..) | NumberForm::Range(..)) {
         reading.ambiguities.extend(others.iter().map(|q| (q.quoted, several)));
@@ -150,6 +152,22 @@ pub(in crate::verify) struct QuotePart {
 /// A quote as one part.
 pub(in crate::verify) fn whole(text: &str, languages: Languages) -> QuotePart {
     QuotePart { text: text.to_string(), reading: read_quote_in(text, languages) }
+}
+
+/// The number of numbers that a quote states besides the one that is read. The numbers before an equality sign compute it, and
+/// one after another equality sign is the same number in another form.
+pub(in crate::verify) fn other_numbers(text: &str, languages: Languages) -> usize {
+    let chars = characters(text);
+    let chars = Chars(&chars);
+    let all = quantities(chars);
+    let is_plain =
+        read_quote_in(text, languages).is_ok_and(|r| !matches!(r.read.form, NumberForm::Range(..)));
+    if !is_plain || last_equals(chars, &all).is_some() || (0..chars.0.len()).any(|i| chars.at(i) == Some('='))
+    {
+        return 0;
+    }
+    let all = all.iter().filter(|q| !q.unit.as_ref().is_some_and(|unit| unit.link == Link::Clause));
+    all.count().saturating_sub(1)
 }
 
 /// The parts of a text that state one number each, in order. A range is one part, unless its two ends give the `expected`

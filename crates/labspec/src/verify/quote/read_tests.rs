@@ -178,7 +178,7 @@ fn other_forms_are_refused_by_name() {
         ("never more than 3 N", "a bound, not a number"),
         ("∓ 0.01", "a plus-minus sign without its number"),
         ("0.44 ± 2 %", "a plus-minus value with an unclear unit"),
-        ("(0.44 ± 0.01)×10^3", "a plus-minus value with an unclear power of ten"),
+        ("(0.44 ± 0.01)×10^3", "a formula"),
         ("from 0.3 to 1.8 m", "a change from one number to another, or a range"),
         ("1 mm to 2 cm", "a range whose ends have different units or powers of ten"),
         ("0.1234567890123456789012345678901", "a number with more digits than a computation has"),

@@ -2,11 +2,12 @@
 //! quizzes. Keys, code, listings, attributes and comments are not part of it.
 
 use super::denial::is_denied;
-use super::markdown_cell::unit_of_column;
+use super::markdown_cell::{is_head_of_units, unit_of_cell, unit_of_column};
 use super::pieces::rendered_pieces;
 use super::places::{MAX_PLACES, Readable, Search};
 use super::quote_claim::QuotePlace;
 use super::table::RenderedTable;
+use super::unit_text::Unit;
 use super::{fold, html, prose};
 use crate::run::Cell;
 use crate::source::{SourceMap, Text};
@@ -103,6 +104,15 @@ impl RenderedText {
     /// The tables with these columns.
     pub(super) fn tables<'t>(&'t self, headings: &'t [&str]) -> impl Iterator<Item = &'t RenderedTable> {
         self.tables.iter().filter(move |table| headings.iter().all(|h| table.column(h).is_some()))
+    }
+
+    /// The unit that the row of a cell of a table states in a column of units.
+    pub(in crate::verify) fn unit_in_row(&self, cell: &Range<usize>) -> Option<Unit> {
+        self.tables.iter().find_map(|table| {
+            let column = table.head.iter().position(|head| is_head_of_units(&head.text))?;
+            let row = table.rows.iter().find(|row| row.iter().any(|other| other.span == *cell))?;
+            unit_of_cell(&row.get(column)?.text)
+        })
     }
 
     /// The number of cells of all tables.

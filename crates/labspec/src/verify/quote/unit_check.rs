@@ -39,7 +39,11 @@ pub(in crate::verify) fn hold(unit: &Unit, found: Option<&Dimension>) -> UnitMat
     }
     // Hertz counts turns, which are not radians.
     let turns = unit.text.contains("Hz") && found.is_exact() && found.has_angle() && found.agrees(expected);
-    if !contradicts(found, expected) && !turns {
+    let fits = !contradicts(found, expected) && !turns;
+    if fits && is_other_turn(found, expected) {
+        return wrong;
+    }
+    if fits {
         return UnitMatch::Fits;
     }
     match unit.link == Link::Clause
@@ -48,6 +52,42 @@ pub(in crate::verify) fn hold(unit: &Unit, found: Option<&Dimension>) -> UnitMat
         true => UnitMatch::Unsure,
         false => UnitMatch::Wrong,
     }
+}
+
+/// Whether a value per second without an angle is compared with turns per minute or degrees per second, which are other
+/// numbers both for turns and for radians.
+fn is_other_turn(found: &Dimension, expected: &Dimension) -> bool {
+    let turns = (expected.factor.abs() * std::f64::consts::TAU - 1.0).abs() < 1e-9;
+    is_rate(found) && found.is_exact() && is_angular_rate(expected) && !expected.is_exact() && !turns
+}
+
+/// Whether a dimension is that of a frequency.
+fn is_rate(d: &Dimension) -> bool {
+    units::parse("1/s").is_some_and(|rate| d.agrees(&rate)) && !d.has_angle()
+}
+
+/// Whether a dimension is that of an angular velocity.
+pub(super) fn is_angular_rate(d: &Dimension) -> bool {
+    units::parse("1/s").is_some_and(|rate| d.agrees(&rate)) && d.angle() == 1.0
+}
+
+/// The dimension without a literal factor that is certainly a pure number: a half, or a multiple of π. A frequency times 2π is
+/// an angular velocity.
+pub(super) fn without_pure_factor(d: Dimension) -> Dimension {
+    use std::f64::consts::{PI, TAU};
+    const PURE: [f64; 9] =
+        [0.5, PI, TAU, 2.0 * TAU, PI / 2.0, PI / 4.0, 2.0 * TAU / 3.0, 1.0 / PI, 1.0 / TAU];
+    let is = |x: &f64| (d.factor.abs() / x - 1.0).abs() < 1e-9;
+    if d.is_number() || !PURE.iter().any(is) {
+        return d;
+    }
+    let exact = d.times(1.0 / d.factor.abs());
+    let angle = match () {
+        () if is(&TAU) && is_rate(&d) => 1.0,
+        () if is(&(1.0 / TAU)) && is_angular_rate(&d) => -1.0,
+        () => return exact,
+    };
+    Dimension::RADIAN.power(angle).and_then(|angle| exact.product(angle)).unwrap_or(exact)
 }
 
 /// Factor that converts the values of an expression to a unit, where that is certain.
@@ -129,6 +169,35 @@ pub(in crate::verify) fn answer_unit(text: Option<&str>, found: Option<Dimension
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn frequencies_and_angular_velocities_differ() {
+        let unit =
+            |text: &str| Unit { text: text.to_string(), dimension: units::parse(text), link: Link::Direct };
+        let frequency = Dimension::base(3).power(-1.0).unwrap_or(Dimension::NUMBER);
+        let angular = without_pure_factor(frequency.times(std::f64::consts::TAU));
+        assert!(is_angular_rate(&angular) && angular.is_exact());
+        for (text, found, fits) in [
+            ("Hz", frequency, true),
+            ("1/s", frequency, true),
+            ("rpm", frequency, false),
+            ("°/s", frequency, false),
+            ("bpm", frequency, false),
+            ("%", frequency, false),
+            ("kg", frequency, false),
+            ("rad/s", angular, true),
+            ("1/s", angular, true),
+            ("Hz", angular, false),
+            ("kg", angular, false),
+            ("rpm", angular, false),
+        ] {
+            assert_eq!(hold(&unit(text), Some(&found)) == UnitMatch::Fits, fits, "{text}");
+        }
+        // Half a mass is a mass, but three times a number of seconds may be a distance.
+        let mass = Dimension::base(1);
+        assert_eq!(hold(&unit("s"), Some(&without_pure_factor(mass.times(0.5)))), UnitMatch::Wrong);
+        assert_eq!(hold(&unit("s"), Some(&without_pure_factor(mass.times(3.0)))), UnitMatch::Fits);
+    }
 
     #[test]
     fn units_of_answers_are_converted_or_wrong() {

@@ -1,6 +1,7 @@
 //! Reads the unit after a number.
 
 use super::numeral::Chars;
+use crate::language::Languages;
 use labspec_bind::units;
 use labspec_expr::dimension::Dimension;
 use nom::branch::alt;
@@ -53,9 +54,15 @@ impl Unit {
         self.share().map(|power| 10f64.powi(power))
     }
 
+    /// The unit of a ratio to one: `2.45 : 1`.
+    pub(super) fn ratio() -> Unit {
+        Unit { text: RATIO.to_string(), dimension: Some(Dimension::NUMBER), link: Link::Direct }
+    }
+
     /// Whether it follows its number or is shared with another one, and is not a name of counted things.
     pub(super) fn is_own(&self) -> bool {
-        self.link != Link::Clause && !self.is_counted()
+        let is_multiple = multiple(&self.text).is_ok() || factor_suffix(&self.text).is_ok();
+        self.link != Link::Clause && !self.is_counted() && !is_multiple && self.text != RATIO
     }
 
     /// Whether it is a name of counted things: `steps`, `bounces`.
@@ -65,9 +72,13 @@ impl Unit {
 
     /// Whether it may also be a symbol of a formula: `2 h` means two hours or two timesteps.
     pub(super) fn is_doubtful(&self) -> bool {
-        matches!(self.text.as_str(), "A" | "C" | "K" | "L" | "V" | "T" | "g" | "h" | "l")
+        phrase_rate(&self.text).is_ok()
+            || matches!(self.text.as_str(), "A" | "C" | "K" | "L" | "V" | "T" | "g" | "h" | "l")
     }
 }
+
+/// The text of the unit of a ratio, for messages.
+const RATIO: &str = "a ratio";
 
 /// Maximum length of a unit, in characters.
 const MAX_UNIT_LENGTH: usize = 40;
@@ -84,15 +95,59 @@ pub(super) fn unit_after(chars: Chars<'_>, end: usize) -> Option<(Unit, usize)> 
 fn unit(line: &str) -> IResult<&str, Unit> {
     let hyphenated = preceded(
         (char('-'), peek(satisfy(char::is_alphabetic))),
-        map(known_unit, |(text, dimension)| unit_named(text, dimension)),
+        alt((
+            map(known_unit, |(text, dimension)| unit_named(text, dimension)),
+            map(terminated(recognize(factor_suffix), word_end), |text| {
+                unit_named(text, Some(Dimension::NUMBER))
+            }),
+        )),
     );
     let space = (opt(char(' ')), not(char(' ')));
     // The superscript ring of TeX: `30^\circ`.
     let ring = opt(terminated(char('^'), peek(char('°'))));
-    let counted = map(verify(word, is_counted), |word| unit_named(word, Some(Dimension::NUMBER)));
+    let counted = alt((
+        counted_rate,
+        multiple,
+        map(verify(word, is_counted), |word| unit_named(word, Some(Dimension::NUMBER))),
+    ));
     // A number per thing that is not a unit, such as `per step`.
     let of_things = map(recognize((over, word)), |text| unit_named(text, None));
-    alt((hyphenated, preceded((space, ring), alt((percentage, measured, counted, of_things))))).parse(line)
+    alt((hyphenated, preceded((space, ring), alt((percentage, measured, counted, of_things, phrase_rate)))))
+        .parse(line)
+}
+
+/// The suffix of a factor after a hyphen: `3-fold`, `3-mal`.
+fn factor_suffix(text: &str) -> IResult<&str, &str> {
+    alt((tag("fold"), tag("mal"), tag("fachen"), tag("fache"), tag("fach"))).parse(text)
+}
+
+/// Words for a factor of another quantity, which is a number without a unit: `2.45 times the speed on the moon`.
+fn multiple(text: &str) -> IResult<&str, Unit> {
+    let times = alt((tag("times"), tag("fois"), tag("veces"), tag("volte"), tag("Mal"), tag("mal")));
+    let number = |rest: &str| {
+        let next = rest.trim_start().split(|c: char| !c.is_alphanumeric()).next().unwrap_or("");
+        let spelled = Languages::ALL.iter().any(|language| language.numerals.contains(&next));
+        rest.trim_start().starts_with(|c: char| !c.is_alphabetic() && !".,;:!?)\"”".contains(c))
+            || spelled
+            || next.chars().count() == 1
+    };
+    let (rest, text) = terminated(times, word_end).parse(text)?;
+    if number(rest) { fail().parse(rest) } else { Ok((rest, unit_named(text, Some(Dimension::NUMBER)))) }
+}
+
+/// A rate of counted things: `3 bounces per second`, `0.7 times per second`.
+fn counted_rate(text: &str) -> IResult<&str, Unit> {
+    let things = verify(word, |word: &str| is_counted(word) || word == "times");
+    let (rest, (text, (_, _, (_, dimension)))) =
+        consumed((things, alt((tag(" per "), tag(" a "), tag("/"))), known_unit)).parse(text)?;
+    Ok((rest, unit_named(text, dimension.and_then(|d| d.power(-1.0)))))
+}
+
+/// A rate of things that are not known: `3 body lengths per second`. Its dimension is that of counted things.
+fn phrase_rate(text: &str) -> IResult<&str, Unit> {
+    let things = (word, opt((char(' '), word)));
+    let (rest, (text, (_, _, (_, dimension)))) = consumed((things, tag(" per "), known_unit)).parse(text)?;
+    Ok((rest, unit_named(text, dimension.and_then(|d| d.power(-1.0)))))
 }
 
 fn unit_named(text: &str, dimension: Option<Dimension>) -> Unit {

@@ -18,7 +18,7 @@ fn state(text: &str, quote: &str, computed: f64, unit: &str) -> QuoteState {
     let says = &lesson.labs[0].lab.as_ref().unwrap().verify.as_ref().unwrap().says[0];
     let rendered = RenderedText::of_lesson(&lesson);
     let dimension = parse(unit);
-    let value = QuoteValue { computed, timestep: &[], start: &[], unit: &|| dimension };
+    let value = QuoteValue { computed, timestep: &[], start: &[], unit: &|| dimension, counts_turns: false };
     let claim = QuoteClaim { quote: &says.quote, part: says.quote.as_str(), expr: &says.exprs[0] };
     let places = places_of_quote(&says.quote, None, &rendered);
     let mut findings = Vec::new();
@@ -41,7 +41,7 @@ const OTHERS: [&str; 135] = [
     "\u{2212}0.5 s",
     "\u{2212} 0.5 s",
     "–0.5 s",
-    "– 0.5 s",
+    "= – 0.5 s",
     "(−)0.5 s",
     "negative 0.5 s",
     "0.5 s / m",
@@ -260,6 +260,93 @@ fn the_same_number_is_right() {
     assert_ne!(state("It takes 2.0 min.", "2.0 min", 2.0, "s"), RIGHT);
     assert_eq!(state("It turns by 45.0°.", "45.0°", std::f64::consts::FRAC_PI_4, "rad"), RIGHT);
     assert_eq!(state("It is 0.5 s here, and 0.5 ms there.", "0.5", 0.5, "s"), RIGHT);
+}
+
+/// Forms of one number, in which the quote is right.
+#[test]
+fn quantities_in_formulas_brackets_and_words_are_right() {
+    for (text, quote, computed, unit) in [
+        (
+            "$$\\begin{aligned} v &= \\sqrt{2gh} \\\\ &= 3.96\\,\\mathrm{m/s}\\end{aligned}$$",
+            "3.96 m/s",
+            3.963,
+            "m/s",
+        ),
+        ("$$v = 3.96\\,\\frac{\\mathrm{m}}{\\mathrm{s}}$$", "3.96", 3.963, "m/s"),
+        ("$$v = 3.96\\,\\frac{\\mathrm{m}}{\\mathrm{s}}$$", "3.96 m/s", 3.963, "m/s"),
+        ("It lands at (3.96 ± 0.01) m/s.", "(3.96 ± 0.01) m/s", 3.963, "m/s"),
+        ("It lands at (3.96 ± 0.01) m/s.", "3.96 ± 0.01", 3.963, "m/s"),
+        ("It lands fast (3.96 ± 0.01 m/s).", "3.96 ± 0.01 m/s", 3.963, "m/s"),
+        ("It lands at (3.9 to 4.0) m/s.", "(3.9 to 4.0) m/s", 3.963, "m/s"),
+        ("It lands at 3.96 metres a second.", "3.96 metres a second", 3.963, "m/s"),
+        (
+            "It falls at 9.81 metres per second per second.",
+            "9.81 metres per second per second",
+            9.81,
+            "m/s^2",
+        ),
+        ("Speed on landing – 3.96 m/s.", "3.96 m/s", 3.963, "m/s"),
+        ("The times are 2.45 to 1.", "2.45 to 1", 2.453, "1"),
+        ("The times are 2.45 : 1.", "2.45 : 1", 2.453, "1"),
+        ("The times are 2.45:1.", "2.45:1", 2.453, "1"),
+        ("Er landet mit zwischen 3 und 5 m/s.", "zwischen 3 und 5 m/s", 3.963, "m/s"),
+        ("Elle arrive entre 3 et 5 m/s.", "entre 3 et 5 m/s", 3.963, "m/s"),
+        ("Elle arrive avec de 3 à 5 m/s.", "de 3 à 5 m/s", 3.963, "m/s"),
+        ("Llega entre 3 y 5 m/s.", "entre 3 y 5 m/s", 3.963, "m/s"),
+        ("Arriva tra 3 e 5 m/s.", "tra 3 e 5 m/s", 3.963, "m/s"),
+        ("Elle passe de 2,31 à 3,73 N m", "2,31", 2.31, "N m"),
+        ("zwischen 0,4 J und 0,5 J", "0,5 J", 0.5, "J"),
+        ("It lands at no less than 3 m/s.", "no less than 3 m/s", 3.963, "m/s"),
+        ("It takes 2.45 times the time on the earth.", "2.45", 2.453, "1"),
+        ("It bounces 3 times.", "3", 3.0, "1"),
+        ("It swings 0.70 times per second.", "0.70", 0.704, "1/s"),
+    ] {
+        assert_eq!(state(text, quote, computed, unit), RIGHT, "{quote} in {text}");
+    }
+}
+
+/// Bounds, negations, comparisons and other quantities, of which none states the value.
+#[test]
+fn words_that_state_something_else_are_not_right() {
+    for (text, quote) in [
+        ("It lands at no less than 4 m/s.", "no less than 4 m/s"),
+        ("It lands at no less than 3.96 m/s.", "3.96 m/s"),
+        ("It lands at a speed outside 3 to 5 m/s.", "outside 3 to 5 m/s"),
+        ("It lands at a speed outside 3 to 5 m/s.", "3 to 5 m/s"),
+        ("It surpasses 3.96 m/s by far.", "3.96 m/s"),
+        ("It surpasses even 3.96 m/s.", "3.96 m/s"),
+        ("It is more than about 3.96 m/s.", "3.96 m/s"),
+        ("It falls short of 3.96 m/s.", "3.96 m/s"),
+        ("It never reaches 3.96 m/s.", "3.96 m/s"),
+        ("It is half as fast as 3.96 m/s.", "3.96 m/s"),
+        ("It is heavier than 3.96 m/s.", "3.96 m/s"),
+        ("Der Ball ist niemals 3,96 m/s schnell.", "3,96 m/s"),
+        ("Er erreicht keinesfalls 3,96 m/s.", "3,96 m/s"),
+        ("Er übersteigt 3,96 m/s.", "3,96 m/s"),
+        ("Er ist halb so schnell wie 3,96 m/s.", "3,96 m/s"),
+        ("La bola nunca alcanza 3,96 m/s.", "3,96 m/s"),
+        ("La bola supera 3,96 m/s.", "3,96 m/s"),
+        ("Elle n'atteint jamais 3,96 m/s.", "3,96 m/s"),
+        ("Elle dépasse 3,96 m/s.", "3,96 m/s"),
+        ("Elle est plus rapide que 3,96 m/s.", "3,96 m/s"),
+        ("3.96 m/s is wrong.", "3.96 m/s"),
+        ("3.96 m/s cannot be right.", "3.96 m/s"),
+        ("3.96 m/s is never reached.", "3.96 m/s"),
+        ("3,96 m/s wird nie erreicht.", "3,96 m/s"),
+        ("It moves at 3.96 times the speed of sound.", "3.96"),
+        ("It moves at 3.96 times the speed of sound.", "3.96 times the speed of sound"),
+        ("It moves at 3.96 body lengths per second.", "3.96"),
+        ("It moves at 3.96 body lengths per second.", "3.96 body lengths per second"),
+        ("zwischen 4 und 50 m/s", "zwischen 4 und 50 m/s"),
+        ("entre 4 et 50 m/s", "entre 4 et 50 m/s"),
+        ("de 4 à 50 m/s", "de 4 à 50 m/s"),
+        ("It lands at 3.96 to 1.", "3.96 to 1"),
+        ("It lies at x = height – 3.96 m/s.", "3.96 m/s"),
+        ("It is 5 m/s – 3.96 m/s.", "3.96 m/s"),
+        ("It moves at (3.96 ± 0.01)² m/s.", "3.96 ± 0.01"),
+    ] {
+        assert_ne!(state(text, quote, 3.963, "m/s"), RIGHT, "{quote} in {text}");
+    }
 }
 
 /// Units, each with the corresponding unit of the expression.
