@@ -14,10 +14,10 @@ pub const NOT_RUN_IN_FULL: &Rule = &Rule {
     summary: "a lab was not run in full, and no other finding says why",
     why: "a check limits the work of its runs, so that nothing is known of the rest, and the check fails. `stopAt` and `window` are in seconds",
     bad: Example::Lab(
-        r#"{"xml": "<mujoco><worldbody><body name='rod'><joint name='hinge' axis='0 1 0'/><geom type='capsule' size='.02' fromto='0 0 0 0 0 -1'/></body></worldbody></mujoco>", "setup": "data.qvel[0] = 1", "stopAt": ⟦30000⟧, "readouts": [{"label": "angle", "expr": "data.qpos[0]", "digits": 0}]}"#,
+        r#"{"xml": "<mujoco><worldbody><body name='rod'><joint name='hinge' axis='0 1 0'/><geom type='capsule' size='.02' fromto='0 0 0 0 0 -1'/></body></worldbody></mujoco>", "setup": "data.qvel[0] = 1", "stopAt": ⟦30000⟧, "readouts": [{"label": "angle", "expr": "data.qpos[0]", "digits": 1}]}"#,
     ),
     good: Example::Lab(
-        r#"{"xml": "<mujoco><worldbody><body name='rod'><joint name='hinge' axis='0 1 0'/><geom type='capsule' size='.02' fromto='0 0 0 0 0 -1'/></body></worldbody></mujoco>", "setup": "data.qvel[0] = 1", "stopAt": 3, "readouts": [{"label": "angle", "expr": "data.qpos[0]", "digits": 0}]}"#,
+        r#"{"xml": "<mujoco><worldbody><body name='rod'><joint name='hinge' axis='0 1 0'/><geom type='capsule' size='.02' fromto='0 0 0 0 0 -1'/></body></worldbody></mujoco>", "setup": "data.qvel[0] = 1", "stopAt": 3, "readouts": [{"label": "angle", "expr": "data.qpos[0]", "digits": 1}]}"#,
     ),
 };
 
