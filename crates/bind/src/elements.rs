@@ -248,6 +248,24 @@ const MATRIX: AngleAdvice = AngleAdvice {
 /// The code of sensors that measure a quaternion, in `sensor_datatype`.
 const QUATERNION_SENSOR: i32 = 3;
 
+/// Whether the elements of a field change in small steps during a run, so that they rarely equal a number exactly.
+pub(super) fn is_continuous(f: FieldId) -> bool {
+    let fields = [
+        data::time,
+        data::qpos,
+        data::qvel,
+        data::qacc,
+        data::act,
+        data::xpos,
+        data::xipos,
+        data::geom_xpos,
+        data::site_xpos,
+        data::subtree_com,
+        data::cvel,
+    ];
+    fields.contains(&f)
+}
+
 /// The role of an element: an angle, a component of a quaternion, an element of a rotation matrix, or none of them.
 pub(super) fn role(m: &Model, f: FieldId, index: usize) -> Role {
     let width = reflect::shape(m, f).get(1).copied().flatten();

@@ -263,6 +263,11 @@ fn accessed_fields(touches: &[AccessedPart]) -> AccessedFields {
     if fields.is_empty() { AccessedFields::Nothing } else { AccessedFields::Fields(fields) }
 }
 
+/// A text that every entry of the list contains which a function returns.
+pub(super) fn entries_contain(f: u32) -> Option<&'static str> {
+    (TABLE.get(f as usize)?.name == "contactPairs").then_some(" / ")
+}
+
 /// The name of a function without the object that contains it.
 pub fn name(FunctionId(f): FunctionId) -> Option<&'static str> {
     TABLE.get(f as usize).map(|f| f.name)

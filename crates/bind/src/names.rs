@@ -367,6 +367,14 @@ impl Schema for ModelNames<'_> {
             .map_or(Measure::Unknown, |field| measures::measure(self.model, field, first, count))
     }
 
+    fn is_continuous(&self, FieldKey(f): FieldKey, _: usize) -> bool {
+        FieldId::new(f as usize).is_some_and(elements::is_continuous)
+    }
+
+    fn entries_contain(&self, FunctionId(f): FunctionId) -> Option<&'static str> {
+        functions::entries_contain(f)
+    }
+
     fn role(&self, FieldKey(f): FieldKey, index: usize) -> Role {
         FieldId::new(f as usize).map_or(Role::default(), |field| elements::role(self.model, field, index))
     }

@@ -9,7 +9,7 @@ use super::output_kind::OutputKind;
 use super::overview::{format_allowed, format_overview, format_summary};
 use super::report_json::print_report;
 use super::reproduction::ReproductionRecord;
-use super::stdio::{print, print_json};
+use super::stdio::{print, print_error, print_json};
 use super::{judge, reproduction, since};
 use clap::ValueEnum;
 use labspec::ledger::{self, Entry, State, Subject};
@@ -108,7 +108,20 @@ pub(super) fn report_results(
         CheckFormat::Sarif => print_json(&report::sarif(&results.findings, &sources), true)?,
         CheckFormat::Junit => print(&report::junit(&results.ledger, &results.findings, &sources))?,
     }
+    print_unlisted_outcome(options, outcome, results);
     command_outcome(options, outcome, results)
+}
+
+/// If a format consists of findings, there are none, and the check failed: the reason on standard error.
+fn print_unlisted_outcome(options: &OutputOptions<'_>, outcome: ledger::Outcome, results: &CourseResults) {
+    let lists_findings = matches!(
+        options.format,
+        CheckFormat::Concise | CheckFormat::Jsonl | CheckFormat::Gitlab | CheckFormat::Sarif
+    );
+    let is_problem = |f: &labspec::finding::Finding| f.severity != labspec::finding::Severity::Note;
+    if lists_findings && outcome == ledger::Outcome::Findings && !results.findings.iter().any(is_problem) {
+        print_error(&format!("{}\n", printable_lines(&format_summary(results))));
+    }
 }
 
 /// The outcome of the ledger; `Nothing` for `verify` if there are no claims.

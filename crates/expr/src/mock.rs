@@ -301,6 +301,14 @@ impl Schema for Mock {
         (field == FieldKey(1)).then(|| format!("coordinate {index}"))
     }
 
+    fn is_continuous(&self, field: FieldKey, _: usize) -> bool {
+        field.0 <= 3
+    }
+
+    fn entries_contain(&self, function: FunctionId) -> Option<&'static str> {
+        (function.0 == 8).then_some(" / ")
+    }
+
     fn role(&self, field: FieldKey, index: usize) -> Role {
         match (field.0, index) {
             (1, 3..=6 | 10..=13) => Role::NoAngle(&QUATERNION),

@@ -299,6 +299,18 @@ pub trait Schema {
         Role::Other
     }
 
+    /// Whether element `index` of a whole field changes in small steps during a run, so that it rarely equals a number exactly.
+    fn is_continuous(&self, field: FieldKey, index: usize) -> bool {
+        let _ = (field, index);
+        false
+    }
+
+    /// A text that every entry of the list contains which a function returns.
+    fn entries_contain(&self, function: FunctionId) -> Option<&'static str> {
+        let _ = function;
+        None
+    }
+
     /// The dimension of the result of a function; `first` is its first argument, if that is a known number or name.
     fn gives(&self, function: FunctionId, first: Option<f64>) -> ResultDimension {
         let _ = first;

@@ -64,7 +64,14 @@ impl Parser<'_> {
     /// Extends `left` by the operators that follow, as long as they bind tightly enough.
     fn continuation(&mut self, mut left: ExprNode, power: u8) -> Attempt<ExprNode> {
         loop {
-            let TokenKind::Symbol(symbol) = *self.peek() else { return Ok(left) };
+            let TokenKind::Symbol(symbol) = *self.peek() else {
+                let (next, continues) = self.python_infix(left, power)?;
+                if !continues {
+                    return Ok(next);
+                }
+                left = next;
+                continue;
+            };
             if matches!(symbol, "." | "[" | "(" | "?.") {
                 left = self.postfix(left, symbol)?;
                 continue;
@@ -153,7 +160,7 @@ impl Parser<'_> {
         self.node(kind, span, left.height)
     }
 
-    fn binary(&mut self, left: ExprNode, operator: Infix, binds: u8) -> Attempt<ExprNode> {
+    pub(super) fn binary(&mut self, left: ExprNode, operator: Infix, binds: u8) -> Attempt<ExprNode> {
         let power = matches!(operator, Infix::Binary(BinaryOp::Power));
         let op_span = self.bump();
         // `**` is right-associative, all others are left-associative.

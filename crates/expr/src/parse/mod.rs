@@ -11,6 +11,7 @@ mod function;
 mod node;
 mod parser;
 mod primary;
+mod python;
 mod recovery;
 mod refuse;
 mod stmt;

@@ -29,6 +29,7 @@ impl Parser<'_> {
             TokenKind::Symbol(symbol) => return self.prefix_symbol(symbol),
             TokenKind::Word(_) if *self.peek_at(1) == TokenKind::Symbol("=>") => return self.arrow(),
             TokenKind::Word(word) => match *word {
+                "not" if self.is_python_not() => return self.python_not(),
                 "typeof" => return self.sign(UnaryOp::TypeOf),
                 "function" => return self.function_expression(),
                 "true" => ExprKind::Boolean(true),

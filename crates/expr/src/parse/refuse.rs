@@ -109,7 +109,13 @@ pub(super) fn symbol(text: &str, span: Span, host_terms: &HostTerms) -> Option<F
             &format!("a {} computes with numbers; text is only displayed", host_terms.lesson),
             "compare strings with `===`, or use `includes` and `startsWith`",
         ),
-        "@" | "#" => never(span, "decorators and private names", NO_OBJECTS, STORE_HELP),
+        "#" => never(
+            span,
+            "comments with `#`",
+            "`#` starts a comment in Python; in JavaScript it is `//`",
+            "write `//`",
+        ),
+        "@" => never(span, "decorators and private names", NO_OBJECTS, STORE_HELP),
         _ => return None,
     })
 }

@@ -75,6 +75,9 @@ impl Parser<'_> {
             TokenKind::Word(word) if matches!(*word, "in" | "instanceof") => {
                 refuse::word(word, span, self.host_terms)
             }
+            TokenKind::Word(word) if self.python_word(word, before.text(self.source)).is_some() => {
+                self.python_word(word, before.text(self.source))
+            }
             _ => {
                 let left = shorten(before.text(self.source));
                 Some(

@@ -15,6 +15,7 @@ mod programs;
 pub(crate) mod roundtrip;
 mod rows;
 mod semantics;
+mod traps;
 mod watch;
 mod writes;
 mod written;

@@ -49,6 +49,11 @@ fn file(path: &Arc<str>, faults: usize) -> Entry {
     }
 }
 
+/// Whether a lab ran, but not to its end or not with every control.
+pub(crate) fn is_unfinished(ran: &RanLab) -> bool {
+    ran.tried.is_some() && lab(ran).0 == State::Unchecked
+}
+
 /// Adds the entries of one lesson.
 fn lesson(c: &Checked, ledger: &mut Ledger) {
     let mut all = Vec::new();

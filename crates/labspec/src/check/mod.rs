@@ -27,6 +27,7 @@ pub use allowed::SuppressedFinding;
 pub use claim_id::is_about;
 pub use claims::Claim;
 pub use curves::{VerifyCurves, curves};
+pub(crate) use entries::is_unfinished;
 pub use entries::{ledger, measure_lines, option_lines};
 pub use judge::{CrossCheck, ReferenceRecording, Request, file_name, hear};
 pub use lab_runs::Coverage;
@@ -236,6 +237,7 @@ pub fn join(lesson: Lesson, found: LabOutcome, level: CheckLevel) -> Checked {
     joined::join_repeated(&lesson, &mut findings);
     crate::lint::withhold_fixes(&lesson, &mut findings);
     all.extend(findings);
+    rules::not_run_in_full::explain(&lesson, &labs, &mut all);
     let mut allowed = allowed::suppress_allowed(&lesson, &mut all, level);
     let mut all: Vec<Finding> = all.into_iter().map(|f| f.at(&lesson.file)).collect();
     for suppressed in &mut allowed {

@@ -64,6 +64,8 @@ pub struct RunOptions {
 
 /// Maximum number of steps of one run. A lesson takes minutes at most; a mistyped length would run practically forever.
 pub const MAX_STEPS: usize = 20_000_000;
+/// A run of this length was probably meant in milliseconds, s.
+const LONG_RUN: f64 = 1000.0;
 /// Maximum number of cells of a table.
 const MAX_CELLS: usize = 10_000_000;
 /// Maximum number of bytes of its texts.
@@ -142,7 +144,7 @@ pub fn count_steps(
         false => (length / timestep + 0.5).floor(),
     };
     if !(0.0..=MAX_STEPS as f64).contains(&count) {
-        return Err(RunError::new(match timestep > 0.0 {
+        let error = RunError::new(match timestep > 0.0 {
             true => format!(
                 "a run of {} s at a timestep of {} s would take {} steps; the limit is {MAX_STEPS}",
                 text(length),
@@ -150,7 +152,11 @@ pub fn count_steps(
                 text(count)
             ),
             false => format!("the timestep is {} s, so time does not advance", text(timestep)),
-        }));
+        });
+        return Err(match length >= LONG_RUN {
+            true => error.help("write a shorter time: `stopAt` and `until` are in seconds"),
+            false => error,
+        });
     }
     Ok(count as usize)
 }

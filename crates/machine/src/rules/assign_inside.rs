@@ -8,6 +8,6 @@ pub const ASSIGN_INSIDE: &Rule = &Rule {
     layer: Layer::Program,
     summary: "an expression contains `=`",
     why: "`=` stores a value; a comparison was probably meant",
-    bad: Example::Statements("if (data.time ⟦=⟧ 1) { ctx.a = 1 }"),
-    good: Example::Statements("if (data.time === 1) { ctx.a = 1 }"),
+    bad: Example::Statements("if (data.ncon ⟦=⟧ 1) { ctx.a = 1 }"),
+    good: Example::Statements("if (data.ncon === 1) { ctx.a = 1 }"),
 };

@@ -1,9 +1,9 @@
 //! Lints about angles: degrees where radians are expected, and numbers used as angles that are not angles.
 
 use super::pass::LintPass;
-use crate::ast::{BinaryOp, Expr};
+use crate::ast::{BinaryOp, Expr, ExprKind};
 use crate::bind::types::ExpressionShape;
-use crate::number;
+use crate::number::{self, to_text as number_text};
 use crate::rules;
 use crate::schema::Role;
 use crate::types::FieldKey;
@@ -19,6 +19,67 @@ impl LintPass<'_> {
             self.degrees(span, &format!("`{by}` takes radians"));
         }
         self.no_angle(span, shape, &format!("`{by}` needs an angle"));
+    }
+
+    /// Warns about `angle > 30` and `45 - angle`, where the angle is in rad.
+    #[inline(never)]
+    pub(super) fn angle_in_degrees(&mut self, op: BinaryOp, left: &Expr, right: &Expr) {
+        /// Two turns; a smaller number may be an angle in rad.
+        const TWO_TURNS: f64 = 4.0 * std::f64::consts::PI;
+        if !(op.is_comparison() || matches!(op, BinaryOp::Add | BinaryOp::Subtract)) {
+            return;
+        }
+        for (angle, number) in [(left, right), (right, left)] {
+            let Some(x) = self.literal(number).filter(|x| x.abs() > TWO_TURNS && in_degrees(*x)) else {
+                continue;
+            };
+            if self.is_angle(angle, 4) && number_text(x) == self.text(number.span) {
+                self.degrees(number.span, &format!("`{}` is in radians", self.text(angle.span)));
+            }
+        }
+    }
+
+    /// Whether an expression converts to radians, or else to degrees, and what it converts.
+    fn conversion<'e>(&self, expr: &'e Expr) -> Option<(bool, &'e Expr)> {
+        match &expr.kind {
+            ExprKind::Call { callee, args, .. } => match (self.bare(callee.span).as_deref(), args.as_slice())
+            {
+                (Some("lib.rad"), [one]) => Some((true, one)),
+                (Some("lib.deg"), [one]) => Some((false, one)),
+                _ => None,
+            },
+            ExprKind::Binary { op: BinaryOp::Multiply | BinaryOp::Divide, .. } => {
+                let (factor, rest) = self.constant_factor(expr);
+                let [(one, false)] = rest.as_slice() else { return None };
+                let near = |x: f64| (factor.abs() / x - 1.0).abs() < 1e-3;
+                let to_radians = near(1f64.to_radians());
+                (to_radians || near(1f64.to_degrees())).then_some((to_radians, *one))
+            }
+            _ => None,
+        }
+    }
+
+    /// Warns about `lib.rad(lib.rad(x))`, and about the conversion of an angle that is already in radians.
+    #[inline(never)]
+    pub(super) fn converted_twice(&mut self, expr: &Expr) {
+        let Some((to_radians, inner)) = self.conversion(expr) else { return };
+        let unit = if to_radians { "radians" } else { "degrees" };
+        let again = match self.conversion(self.definition(inner)) {
+            Some((same, _)) if same == to_radians => {
+                format!("`{}` is in {unit} already", self.text(inner.span))
+            }
+            _ if to_radians && self.is_angle(inner, 4) => {
+                format!("`{}` is in radians already", self.text(inner.span))
+            }
+            _ => return,
+        };
+        let meant = self.text(inner.span).to_owned();
+        self.found.push(
+            Finding::warning(rules::CONVERTED_TWICE, expr.span, format!("this converts to {unit} again"))
+                .why(again)
+                .help(format!("write `{meant}`"))
+                .guess(expr.span, meant),
+        );
     }
 
     /// Checks `x * 180` and similar conversions of radians to degrees.

@@ -3,9 +3,15 @@
 
 mod angles;
 mod compare;
+mod conditions;
+mod definitions;
+mod exact;
 mod idle;
+mod limits;
 mod numbers;
+mod operands;
 mod pass;
+mod sums;
 mod twice;
 
 pub(super) use pass::lint;

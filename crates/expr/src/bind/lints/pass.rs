@@ -1,10 +1,12 @@
 //! The traversal of a source text by the lints.
 
+use super::definitions::{Definitions, definitions};
 use crate::ast::{BinaryOp, Body, Element, Expr, ExprKind, Pattern, Property, Stmt, StmtKind};
 use crate::bind::source::SourceTree;
 use crate::bind::types::{Expectation, TypedText};
 use crate::schema::Schema;
 use labspec_finding::{Finding, Span};
+use std::collections::BTreeSet;
 
 /// The state of the traversal.
 pub(super) struct LintPass<'l> {
@@ -12,20 +14,35 @@ pub(super) struct LintPass<'l> {
     pub(super) source: &'l str,
     pub(super) typed: &'l TypedText,
     pub(super) found: Vec<Finding>,
+    /// The constants that the text declares.
+    pub(super) definitions: Definitions<'l>,
+    /// The variables of the blocks around the current one.
+    pub(super) scopes: Vec<Vec<String>>,
+    /// Parts of chains that were checked as a whole.
+    pub(super) visited: BTreeSet<Span>,
 }
 
 /// Runs the lints on a source text.
-pub(in crate::bind) fn lint(
-    schema: &dyn Schema,
-    source: &str,
-    tree: SourceTree<'_>,
-    typed: &TypedText,
+pub(in crate::bind) fn lint<'l>(
+    schema: &'l dyn Schema,
+    source: &'l str,
+    tree: SourceTree<'l>,
+    typed: &'l TypedText,
 ) -> Vec<Finding> {
-    let mut pass = LintPass { schema, source, typed, found: Vec::new() };
+    let mut pass = LintPass {
+        schema,
+        source,
+        typed,
+        found: Vec::new(),
+        definitions: definitions(tree),
+        scopes: Vec::new(),
+        visited: BTreeSet::new(),
+    };
     match tree {
         SourceTree::Expression(expr) | SourceTree::Target(expr) => pass.expr(expr),
         SourceTree::Statements(statements) => pass.block(statements),
     }
+    pass.comment_as_division();
     for (span, expectation, shape) in &typed.expectations {
         match expectation {
             Expectation::Number(by) => pass.text_for_number(*span, by, shape),
@@ -47,19 +64,42 @@ impl LintPass<'_> {
     pub(super) fn expr(&mut self, expr: &Expr) {
         match &expr.kind {
             ExprKind::Unary { op, .. } => self.text_operand(*op, expr),
-            ExprKind::Binary { op, left, right } => {
-                self.compared_with_nan(*op, left, right, expr.span);
-                self.chained(*op, left, expr.span);
-                self.text_operands(*op, left, right);
-                self.converted(*op, left, right);
-                if *op == BinaryOp::BitXor {
-                    self.power(left, right, expr.span);
-                }
+            ExprKind::Binary { op, left, right } => self.binary(*op, left, right, expr),
+            ExprKind::Logical { op, left, .. } => {
+                self.fallback(*op, left, expr.span);
+                self.limits(*op, expr);
             }
-            ExprKind::Logical { op, left, .. } => self.fallback(*op, left, expr.span),
+            ExprKind::Conditional { test, .. } => self.tested(test),
+            ExprKind::Call { callee, args, .. } => {
+                self.clamped(expr);
+                self.converted_twice(expr);
+                self.searched(callee, args, expr.span);
+            }
             _ => {}
         }
         self.inside(expr);
+    }
+
+    /// Checks an operator between two operands.
+    #[inline(never)]
+    fn binary(&mut self, op: BinaryOp, left: &Expr, right: &Expr, expr: &Expr) {
+        let span = expr.span;
+        self.compared_with_nan(op, left, right, span);
+        self.chained(op, left, span);
+        self.negated_operand(op, left, right, span);
+        self.power_of_quotient(op, left, right, span);
+        self.joined_first(op, left, right, span);
+        self.exact(op, left, right, span);
+        self.outside_range(expr);
+        self.angle_in_degrees(op, left, right);
+        self.text_operands(op, left, right);
+        self.converted(op, left, right);
+        match op {
+            BinaryOp::Add => self.same_term(expr),
+            BinaryOp::Multiply | BinaryOp::Divide => self.degree_factor(expr),
+            BinaryOp::BitXor => self.power(left, right, span),
+            _ => {}
+        }
     }
 
     /// Visits the parts of an expression.
@@ -121,7 +161,10 @@ impl LintPass<'_> {
     pub(super) fn block(&mut self, statements: &[Stmt]) {
         self.never_reached(statements);
         self.stored_twice(statements);
+        let names = self.lost_declarations(statements);
+        self.scopes.push(names);
         statements.iter().for_each(|statement| self.statement(statement));
+        self.scopes.pop();
     }
 
     #[inline(never)]
@@ -146,11 +189,13 @@ impl LintPass<'_> {
                 }
             }
             StmtKind::If { test, then, otherwise } => {
+                self.tested(test);
                 self.expr(test);
                 self.statement(then);
                 otherwise.iter().for_each(|otherwise| self.statement(otherwise));
             }
             StmtKind::For { init, test, update, body } => {
+                self.counted_away(init.as_deref(), test.as_ref(), update.as_ref());
                 init.iter().for_each(|init| self.statement(init));
                 test.iter().for_each(|test| self.expr(test));
                 update.iter().for_each(|update| {
@@ -165,6 +210,7 @@ impl LintPass<'_> {
                 self.statement(body);
             }
             StmtKind::While { test, body } | StmtKind::DoWhile { test, body } => {
+                self.tested(test);
                 self.expr(test);
                 self.statement(body);
             }

@@ -23,7 +23,7 @@ const MAX_ARGUMENTS: usize = 8;
 
 impl LintPass<'_> {
     /// A text without its whitespace, or `None` if it is too long.
-    fn bare(&self, span: Span) -> Option<String> {
+    pub(super) fn bare(&self, span: Span) -> Option<String> {
         let text = self.text(span);
         (text.len() <= MAX_TEXT).then(|| text.chars().filter(|c| !c.is_whitespace()).collect())
     }

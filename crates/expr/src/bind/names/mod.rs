@@ -8,6 +8,7 @@
 mod declared;
 mod language;
 mod meant;
+mod python;
 mod statement;
 mod unknown;
 mod walk;

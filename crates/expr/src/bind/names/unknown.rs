@@ -1,6 +1,7 @@
 //! Messages about names that are unknown or cannot be used in this way.
 
 use super::language::list_names;
+use super::python::{self, Instead};
 use super::walk::{NameUse, NameWalk};
 use crate::bind::source::TextKind;
 use crate::host_terms::HostTerms;
@@ -13,7 +14,7 @@ const PAGE_NAMES: [&str; 8] =
     ["window", "document", "globalThis", "self", "global", "localStorage", "sessionStorage", "navigator"];
 /// Usual names of libraries of Python.
 const PYTHON_NAMES: [&str; 6] = ["np", "numpy", "jnp", "torch", "scipy", "plt"];
-const PRINT_NAMES: [&str; 3] = ["console", "alert", "prompt"];
+const PRINT_NAMES: [&str; 4] = ["console", "alert", "prompt", "print"];
 const NETWORK_NAMES: [&str; 6] = ["fetch", "XMLHttpRequest", "WebSocket", "require", "process", "Worker"];
 const CODE_NAMES: [&str; 2] = ["eval", "Function"];
 const CLOCK_NAMES: [&str; 5] = ["Date", "performance", "setTimeout", "setInterval", "requestAnimationFrame"];
@@ -78,6 +79,16 @@ impl NameWalk<'_, '_> {
         };
         if self.found.len() > MAX_DIAGNOSTICS {
             return report; // the message is not displayed, so the search for a suggestion is skipped
+        }
+        let roots = self.root_names();
+        match python::instead_of(name, |root| roots.iter().any(|other| other == root)) {
+            Some(Instead::Name(meant)) => {
+                return report.help(format!("did you mean `{meant}`?")).guess(span, meant);
+            }
+            Some(Instead::Advice(help)) => {
+                return report.why(format!("`{name}` is a word of Python")).help(help);
+            }
+            None => {}
         }
         match self.meant(name, used) {
             Some(meant) => report.help(format!("did you mean `{meant}`?")).guess(span, meant),

@@ -1,0 +1,121 @@
+//! The constants that a text declares, and declarations that hide a variable.
+
+use super::pass::LintPass;
+use crate::ast::{Body, Declarator, Expr, ExprKind, Name, Pattern, Stmt, StmtKind};
+use crate::bind::source::SourceTree;
+use crate::rules;
+use labspec_finding::{Finding, Span};
+use std::collections::BTreeMap;
+
+/// The value of each constant that a text declares once; `None` for a name with several declarations.
+pub(super) type Definitions<'t> = BTreeMap<&'t str, Option<&'t Expr>>;
+
+/// The limit on constants that are defined by other constants.
+const MAX_HOPS: usize = 8;
+
+pub(super) fn definitions<'t>(tree: SourceTree<'t>) -> Definitions<'t> {
+    let mut all = Definitions::new();
+    if let SourceTree::Statements(statements) = tree {
+        statements.iter().for_each(|statement| collect(statement, &mut all));
+    }
+    all
+}
+
+fn collect<'t>(statement: &'t Stmt, all: &mut Definitions<'t>) {
+    match &statement.kind {
+        StmtKind::Declare { constant, declarators } => {
+            for Declarator { target, value } in declarators {
+                let Pattern::Name(name) = target else { continue };
+                let is_new = !all.contains_key(name.text.as_str());
+                all.insert(&name.text, value.as_ref().filter(|_| is_new && *constant));
+            }
+        }
+        StmtKind::Function { function, .. } => {
+            if let Body::Block(statements) = &function.body {
+                statements.iter().for_each(|inner| collect(inner, all));
+            }
+        }
+        StmtKind::If { then, otherwise, .. } => {
+            collect(then, all);
+            otherwise.iter().for_each(|inner| collect(inner, all));
+        }
+        StmtKind::For { init, body, .. } => {
+            init.iter().for_each(|inner| collect(inner, all));
+            collect(body, all);
+        }
+        StmtKind::ForOf { body, .. } | StmtKind::While { body, .. } | StmtKind::DoWhile { body, .. } => {
+            collect(body, all);
+        }
+        StmtKind::Block(statements) => statements.iter().for_each(|inner| collect(inner, all)),
+        _ => {}
+    }
+}
+
+impl<'l> LintPass<'l> {
+    /// The expression that a constant stands for; any other expression stands for itself.
+    pub(super) fn definition<'e>(&self, expr: &'e Expr) -> &'e Expr
+    where
+        'l: 'e,
+    {
+        let mut expr = expr;
+        for _ in 0..MAX_HOPS {
+            let ExprKind::Name(name) = &expr.kind else { return expr };
+            match self.definitions.get(name.as_str()) {
+                Some(Some(value)) => expr = value,
+                _ => return expr,
+            }
+        }
+        expr
+    }
+
+    /// Warns about a declaration in a block that hides a variable around it, and that nothing reads.
+    pub(super) fn lost_declarations(&mut self, statements: &[Stmt]) -> Vec<String> {
+        let (Some(first), Some(last)) = (statements.first(), statements.last()) else { return Vec::new() };
+        let block = first.span.to(last.span);
+        let mut names = Vec::new();
+        for statement in statements {
+            let StmtKind::Declare { declarators, .. } = &statement.kind else { continue };
+            for declarator in declarators {
+                let Pattern::Name(name) = &declarator.target else { continue };
+                let hides = self.scopes.iter().flatten().any(|outer| *outer == name.text);
+                if hides && !self.reads(block, &name.text) {
+                    let alone = declarators.len() == 1;
+                    self.lost_declaration(name, declarator, statement.span.start, alone);
+                }
+                names.push(name.text.clone());
+            }
+        }
+        names
+    }
+
+    /// Whether a part of the text reads a variable, so that it does more than store it.
+    fn reads(&self, span: Span, name: &str) -> bool {
+        let text = self.text(span);
+        let is_part = |c: char| c.is_alphanumeric() || c == '_' || c == '$';
+        text.match_indices(name).any(|(at, _)| {
+            let before = text.get(..at).unwrap_or("");
+            let after = text.get(at + name.len()..).unwrap_or("");
+            let is_word = !before.ends_with(|c| is_part(c) || c == '.') && !after.starts_with(is_part);
+            let next = after.trim_start();
+            let stores = next.starts_with('=') && !next.starts_with("==") && !next.starts_with("=>");
+            is_word && !stores
+        })
+    }
+
+    fn lost_declaration(&mut self, declared: &Name, declarator: &Declarator, start: usize, alone: bool) {
+        let name = &declared.text;
+        let report = Finding::new(
+            rules::LOST_DECLARATION,
+            declared.span,
+            format!("this is a new variable `{name}`, and nothing reads it"),
+        );
+        self.found.push(match declarator.value.as_ref().filter(|_| alone) {
+            Some(value) => {
+                let meant = format!("{name} = {}", self.text(value.span));
+                let whole = Span::new(start, value.span.end);
+                report.help(format!("to change the outer `{name}`, write `{meant}`")).guess(whole, meant)
+            }
+            None => report.help(format!("to change the outer `{name}`, assign it without `let`")),
+        });
+    }
+}
