@@ -64,7 +64,7 @@ const FACTOR_WORDS: [(&str, f64); 23] = [
 ];
 
 /// Comparatives of smaller quantities; every other comparative is one of larger quantities.
-const SMALLER: [&str; 15] = [
+pub(super) const SMALLER: [&str; 15] = [
     "less",
     "fewer",
     "shorter",

@@ -4,6 +4,7 @@ use super::context::BOUND;
 use super::modifier::{WordList, ends_with, last_word};
 use super::number::{NumberForm, Quoted};
 use super::numeral::Chars;
+use super::option_ratio::SMALLER;
 use super::quantity::{Quantity, quantities};
 use super::unit_text::Unit;
 use super::{fold, html};
@@ -113,14 +114,53 @@ fn stated_range(q: &Quantity, before: &str, languages: Languages) -> Option<(f64
             let off = half_unit.max(value.abs() * if is_about { ABOUT } else { PRINTED });
             Some((value - off, value + off))
         }
-        (Some(BOUND), NumberForm::Plain(_)) => {
-            match (states(WordList::LowerBound), states(WordList::UpperBound)) {
-                (true, false) => Some((value, f64::INFINITY)),
-                (false, true) => Some((f64::NEG_INFINITY, value)),
-                _ => None,
-            }
-        }
+        (Some(_), NumberForm::Plain(_)) => Some(match side_of_bound(before, languages)? {
+            BoundSide::Above => (value, f64::INFINITY),
+            BoundSide::Below => (f64::NEG_INFINITY, value),
+        }),
         _ => None,
+    }
+}
+
+/// The side of a number on which a bound lies.
+#[derive(Clone, Copy, PartialEq)]
+enum BoundSide {
+    Above,
+    Below,
+}
+
+/// Words that turn a bound around: `never more than`.
+const NEGATIONS: [&str; 12] =
+    ["no", "not", "never", "n't", "cannot", "nicht", "nie", "niemals", "jamais", "nunca", "mai", "kein"];
+
+/// The side on which the bound lies that the words before a number state: `at least`, `later than`, `never more than`.
+fn side_of_bound(before: &str, languages: Languages) -> Option<BoundSide> {
+    let phrase = |list: WordList| last_word(before, list, languages);
+    let (side, words) = match (phrase(WordList::LowerBound), phrase(WordList::UpperBound)) {
+        (Some(lower), Some(upper)) if lower.len() > upper.len() => (BoundSide::Above, lower),
+        (Some(lower), None) => (BoundSide::Above, lower),
+        (_, Some(upper)) => (BoundSide::Below, upper),
+        (None, None) => comparative(before)?,
+    };
+    let rest = before.strip_suffix(words)?.trim_end();
+    let negated =
+        NEGATIONS.iter().any(|word| ends_with(rest, word) || *word == "n't" && rest.ends_with(word));
+    Some(match (side, negated) {
+        (BoundSide::Above, false) | (BoundSide::Below, true) => BoundSide::Above,
+        _ => BoundSide::Below,
+    })
+}
+
+/// A comparative before a number: `later than`.
+fn comparative(before: &str) -> Option<(BoundSide, &str)> {
+    let rest = before.strip_suffix("than")?.trim_end();
+    let start = rest.rfind(|c: char| !c.is_alphabetic()).map_or(0, |i| i + 1);
+    let word = rest.get(start..)?;
+    let words = before.get(start..)?;
+    match () {
+        () if SMALLER.contains(&word) => Some((BoundSide::Below, words)),
+        () if word == "more" || word.len() > 4 && word.ends_with("er") => Some((BoundSide::Above, words)),
+        () => None,
     }
 }
 
