@@ -100,18 +100,18 @@ fn is_number_of(q: &OptionNumber, x: f64) -> bool {
 
 /// A number that is that of the simulation, with a unit of another dimension.
 fn wrong_unit(stated: &[OptionNumber], compared: &[Known]) -> Option<String> {
-    let ([q], [known]) = (stated, compared) else { return None };
-    let differs = q.unit.dimension.is_some_and(|d| !d.agrees(&known.dimension));
+    let [q] = stated else { return None };
+    let differs = q.unit.dimension.is_some_and(|d| compared.iter().all(|known| !d.agrees(&known.dimension)));
     let scale = q.unit.percentage().unwrap_or(1.0);
-    let close = q.low * scale <= known.value && known.value <= q.high * scale;
-    (differs && close && known.value != 0.0).then(|| {
-        format!(
-            "the text says {}, but the condition compares {} {}",
-            q.text,
-            significant(known.value),
-            written(&known.dimension)
-        )
-    })
+    let close =
+        |known: &&Known| known.value != 0.0 && q.low * scale <= known.value && known.value <= q.high * scale;
+    let known = compared.iter().find(close).filter(|_| differs)?;
+    Some(format!(
+        "the text says {}, but the condition compares {} {}",
+        q.text,
+        significant(known.value),
+        written(&known.dimension)
+    ))
 }
 
 /// A ratio in words that is that of no two measured values.
