@@ -8,7 +8,7 @@ use super::numeral::{Chars, fraction};
 use labspec_bind::units::{self, is_wide};
 
 /// Words after a number that change its value.
-const CHANGING_WORDS: [&str; 27] = [
+const CHANGING_WORDS: [&str; 48] = [
     "or more",
     "or less",
     "or longer",
@@ -36,6 +36,27 @@ const CHANGING_WORDS: [&str; 27] = [
     "multipliziert mit",
     "divisé par",
     "multiplié par",
+    "at the latest",
+    "at the earliest",
+    "at best",
+    "at worst",
+    "and below",
+    "and up",
+    "höchstens",
+    "mindestens",
+    "oder weniger",
+    "au plus",
+    "au moins",
+    "ou moins",
+    "como máximo",
+    "como mínimo",
+    "o más",
+    "o menos",
+    "al massimo",
+    "almeno",
+    "o più",
+    "o meno",
+    "mach",
 ];
 
 const UNSPACED_CHANGING_WORDS: [&str; 19] = [

@@ -3,6 +3,7 @@
 mod arithmetic;
 mod check_quote;
 mod clause_unit;
+mod constant;
 mod context;
 mod context_after;
 mod denial;
