@@ -243,8 +243,7 @@ pub(super) fn before(chars: Chars<'_>, start: usize) -> Option<&'static str> {
         '±' | '∓' => Some(PLUS_MINUS),
         '/' if previous == Some('+') => Some(PLUS_MINUS),
         '–' if !attached && is_dash(chars, index - 1) => None,
-        '–' if !attached && is_dash(chars, index - 1) => None,
-        '-' | '–' => Some(DIFFERENCE),
+        '-' | '–' if c == '-' || attached || !is_dash(chars, index - 1) => Some(DIFFERENCE),
         '√' | '×' | '·' | '*' | '/' | '+' | '÷' | '^' | '_' | '∙' | '∕' | '⁄' | '|' | '\\' | '∝' | '≠'
         | '¬' | '#' | '@' | '!'
             if attached || c != '|' && c != '!' =>
@@ -317,19 +316,17 @@ fn without_adverbs(line: &str) -> &str {
     line
 }
 
-/// The text without an article at its end.
+/// The text without an article at its end. In English an article names a number that is stated: `less than the 3 N that are
+/// needed`.
 fn without_article(line: &str) -> &str {
-    const ARTICLES: [&str; 13] =
-        ["the", "a", "an", "die", "der", "den", "les", "la", "los", "las", "i", "gli", "le"];
+    const ARTICLES: [&str; 9] = ["die", "der", "den", "les", "la", "los", "las", "i", "gli"];
     let article = ARTICLES.into_iter().find(|word| ends_with(line, word));
     article.and_then(|word| line.strip_suffix(word)).map_or(line, str::trim_end)
 }
 
-/// Whether a bound may be a place or a time: `above the 0.5 m line`, `over the 2 s of the run`.
+/// Whether a bound may be a place or a time: `über die 2 s`.
 fn is_place(line: &str) -> bool {
-    ["over", "under", "above", "below", "beyond", "outside", "outside of", "über", "unter", "oltre"]
-        .into_iter()
-        .any(|word| ends_with(line, word))
+    ["über", "unter", "oltre", "au-dessus de", "por encima de"].into_iter().any(|word| ends_with(line, word))
 }
 
 /// Whether a text ends with a comparison that makes the number another one: `half as fast as`, `halb so schnell wie`,
