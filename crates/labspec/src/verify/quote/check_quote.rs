@@ -36,6 +36,7 @@ pub(in crate::verify) fn check_quote(
         Ok(reading) => reading,
         Err(unread) => return report_unread(claim, unread, outcome, findings),
     };
+    let arithmetic: Vec<f64> = places.iter().filter_map(|place| place.arithmetic).collect();
     let compared = QuoteComparison::new(claim, reading, &mut places, value);
     outcome.places = places.into_iter().map(|p| p.span).collect();
     outcome.computed = compared.computed;
@@ -54,6 +55,12 @@ pub(in crate::verify) fn check_quote(
         return compared.judge_chaotic(outcome, findings);
     }
     outcome.moved = compared.moved(&compared.timestep);
+    if let Some(x) = arithmetic.into_iter().find(|x| compared.fits.is_some() && compared.differs_from(*x)) {
+        outcome.reason = format!("the arithmetic before it gives {}", messages::printed(&compared.read, x));
+        outcome.state = QuoteState::Wrong;
+        findings.push(messages::wrong_arithmetic(claim, &outcome));
+        return outcome;
+    }
     match compared.fits {
         Some(fits) => compared.judge_unit(fits, outcome, findings),
         None => compared.explain_difference(outcome, findings),
@@ -89,6 +96,9 @@ fn report_unread(
         }
     }
 }
+
+/// The largest relative difference that rounded numbers in arithmetic explain.
+const ROUNDED: f64 = 0.05;
 
 /// A quoted number, and the value of its expression in the unit of the quote.
 struct QuoteComparison<'q> {
@@ -144,6 +154,15 @@ impl<'q> QuoteComparison<'q> {
         let (timestep, start) = (scaled(value.timestep), scaled(value.start));
         let read = fits.unwrap_or(reading.read);
         QuoteComparison { claim, reading, unit, measured, factor, computed, timestep, start, fits, read }
+    }
+
+    /// Whether the number certainly differs from arithmetic with rounded numbers, and is not the same in another unit.
+    fn differs_from(&self, x: f64) -> bool {
+        let ratio = x / self.read.value;
+        let power = ratio.abs().log10();
+        let shifted = power.round() != 0.0 && (power - power.round()).abs() < 0.02;
+        let is_number = self.read.is(x) || self.reading.share.is_some_and(|share| share.is(x));
+        !is_number && !shifted && (ratio - 1.0).abs() > ROUNDED
     }
 
     /// The runs under perturbed numerics in which the printed digits change, and what they print.

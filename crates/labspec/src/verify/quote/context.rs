@@ -20,7 +20,7 @@ pub(super) const LETTERS: &str = "a number followed by letters";
 pub(super) const MAX_CONTEXT: usize = 40;
 
 /// Words before a number that exclude it, or compare something with it.
-const EXCLUSIONS: [&str; 48] = [
+const EXCLUSIONS: [&str; 40] = [
     "different from",
     "differs from",
     "differ from",
@@ -30,7 +30,6 @@ const EXCLUSIONS: [&str; 48] = [
     "except for",
     "excluding",
     "apart from",
-    "instead of",
     "unlike",
     "contrary to",
     "far off",
@@ -48,27 +47,20 @@ const EXCLUSIONS: [&str; 48] = [
     "außerhalb von",
     "außer",
     "anders als",
-    "statt",
-    "anstatt",
-    "anstelle von",
     "verfehlt",
     "abgesehen von",
     "hors de",
     "en dehors de",
     "sauf",
-    "au lieu de",
     "loin de",
     "excepté",
     "fuera de",
     "excepto",
     "salvo",
-    "en vez de",
-    "en lugar de",
     "lejos de",
     "fuori da",
     "eccetto",
     "tranne",
-    "invece di",
 ];
 
 /// Adverbs between a bound and its number: `more than about 3 m/s`, `surpasses even 3 m/s`.
@@ -88,7 +80,7 @@ const ADVERBS: [&str; 12] = [
 ];
 
 /// Words before a number that change its value.
-const CHANGING_WORDS: [&str; 70] = [
+const CHANGING_WORDS: [&str; 71] = [
     "hundred",
     "thousand",
     "million",
@@ -120,6 +112,7 @@ const CHANGING_WORDS: [&str; 70] = [
     "thousandth of",
     "square of",
     "cube of",
+    "mach",
     "root of",
     "root",
     "inverse of",
@@ -250,8 +243,7 @@ pub(super) fn before(chars: Chars<'_>, start: usize) -> Option<&'static str> {
         '±' | '∓' => Some(PLUS_MINUS),
         '/' if previous == Some('+') => Some(PLUS_MINUS),
         '–' if !attached && is_dash(chars, index - 1) => None,
-        '–' if !attached && is_dash(chars, index - 1) => None,
-        '-' | '–' => Some(DIFFERENCE),
+        '-' | '–' if c == '-' || attached || !is_dash(chars, index - 1) => Some(DIFFERENCE),
         '√' | '×' | '·' | '*' | '/' | '+' | '÷' | '^' | '_' | '∙' | '∕' | '⁄' | '|' | '\\' | '∝' | '≠'
         | '¬' | '#' | '@' | '!'
             if attached || c != '|' && c != '!' =>
@@ -310,7 +302,8 @@ fn unspaced_before(chars: Chars<'_>, index: usize) -> Option<&'static str> {
 fn is_bound(line: &str) -> bool {
     let lower = Languages::ALL.words_of(|language| language.lower_bounds);
     let mut bounds = lower.chain(Languages::ALL.words_of(|language| language.upper_bounds)).chain(EXCLUSIONS);
-    bounds.any(|word| ends_with(line, word)) || ends_with(line, "than") && !ends_with(line, "no more than")
+    bounds.any(|word| ends_with(line, word))
+        || ends_with(line, "than") && !ends_with(line, "no more than") && !ends_with(line, "rather than")
 }
 
 /// The text without the adverbs at its end.
@@ -321,6 +314,19 @@ fn without_adverbs(line: &str) -> &str {
         line = line.strip_suffix(word).unwrap_or("").trim_end();
     }
     line
+}
+
+/// The text without an article at its end. In English an article names a number that is stated: `less than the 3 N that are
+/// needed`.
+fn without_article(line: &str) -> &str {
+    const ARTICLES: [&str; 9] = ["die", "der", "den", "les", "la", "los", "las", "i", "gli"];
+    let article = ARTICLES.into_iter().find(|word| ends_with(line, word));
+    article.and_then(|word| line.strip_suffix(word)).map_or(line, str::trim_end)
+}
+
+/// Whether a bound may be a place or a time: `über die 2 s`.
+fn is_place(line: &str) -> bool {
+    ["über", "unter", "oltre", "au-dessus de", "por encima de"].into_iter().any(|word| ends_with(line, word))
 }
 
 /// Whether a text ends with a comparison that makes the number another one: `half as fast as`, `halb so schnell wie`,
@@ -374,7 +380,8 @@ fn words_before(chars: Chars<'_>, index: usize) -> Option<&'static str> {
     if head.len() < line.len() && (is_bound(head) || is_denied(head)) {
         return Some(COMPARISON);
     }
-    if is_compared(&line) {
+    let bare = without_article(head);
+    if is_compared(&line) || bare.len() < head.len() && is_bound(bare) && !is_place(bare) {
         return Some(COMPARISON);
     }
     if CHANGING_WORDS.into_iter().any(ends)

@@ -8,7 +8,7 @@ use super::numeral::{Chars, fraction};
 use labspec_bind::units::{self, is_wide};
 
 /// Words after a number that change its value.
-const CHANGING_WORDS: [&str; 27] = [
+const CHANGING_WORDS: [&str; 48] = [
     "or more",
     "or less",
     "or longer",
@@ -36,6 +36,27 @@ const CHANGING_WORDS: [&str; 27] = [
     "multipliziert mit",
     "divisé par",
     "multiplié par",
+    "at the latest",
+    "at the earliest",
+    "at best",
+    "at worst",
+    "and below",
+    "and up",
+    "höchstens",
+    "mindestens",
+    "oder weniger",
+    "au plus",
+    "au moins",
+    "ou moins",
+    "como máximo",
+    "como mínimo",
+    "o más",
+    "o menos",
+    "al massimo",
+    "almeno",
+    "o più",
+    "o meno",
+    "mach",
 ];
 
 const UNSPACED_CHANGING_WORDS: [&str; 19] = [
@@ -47,9 +68,6 @@ const UNSPACED_CHANGING_WORDS: [&str; 19] = [
 /// The function is long because it is one table: a row for each character that may follow a quantity.
 pub(super) fn after(chars: Chars<'_>, end: usize, has_unit: bool) -> Option<&'static str> {
     let c = chars.at(end)?;
-    if is_denied_after(&chars.text(end, end + MAX_CONTEXT).to_lowercase()) {
-        return Some(DENIED);
-    }
     let next = chars.skip_blanks(end);
     let after_blank = next > end;
     let number_at = |i: usize| {
@@ -110,6 +128,11 @@ pub(super) fn after(chars: Chars<'_>, end: usize, has_unit: bool) -> Option<&'st
         c if c.is_ascii() && !matches!(c, '$' | '#' | '@' | '&') || PUNCTUATION.contains(c) => None,
         _ => Some("a number followed by something that is not understood"),
     }
+}
+
+/// The reason why the words after a quantity deny it; `None` if they do not.
+pub(super) fn denied_after(chars: Chars<'_>, end: usize) -> Option<&'static str> {
+    is_denied_after(&chars.text(end, end + MAX_CONTEXT).to_lowercase()).then_some(DENIED)
 }
 
 /// Non-ASCII characters that may follow a quantity.

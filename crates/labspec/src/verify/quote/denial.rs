@@ -32,6 +32,30 @@ const VERB_NEGATIONS: ([&str; 24], usize) = (
     3,
 );
 
+/// Negations that affect more words: `it never quite gets up to 0.44 s`.
+const FAR_NEGATIONS: [&str; 11] = [
+    "never",
+    "nie",
+    "niemals",
+    "nimmer",
+    "keinesfalls",
+    "keineswegs",
+    "jamais",
+    "nunca",
+    "jamás",
+    "nobody",
+    "niemand",
+];
+
+/// Number of words that they affect.
+const MAX_REACH: usize = 8;
+
+/// Words that do not count.
+const FILLERS: [&str; 20] = [
+    "a", "an", "the", "of", "at", "to", "die", "der", "den", "das", "les", "la", "le", "los", "las", "el",
+    "i", "de", "di", "quite",
+];
+
 /// Words that negate a noun: `without spin it takes 0.44 s` does not negate the time.
 const NOUN_NEGATIONS: ([&str; 21], usize) = (
     [
@@ -72,7 +96,9 @@ const ENDS: [&str; 26] = [
 ];
 
 /// Phrases that negate a whole clause.
-const CLAUSES: [&str; 22] = [
+const CLAUSES: [&str; 24] = [
+    "be wrong to",
+    "is wrong to",
     "by no means",
     "in no way",
     "on no account",
@@ -109,7 +135,12 @@ pub(super) fn is_denied(line: &str) -> bool {
     if CLAUSES.iter().any(|phrase| clause.contains(phrase)) {
         return true;
     }
-    let near: Vec<&str> = clause.split_whitespace().rev().take(VERB_NEGATIONS.1 + 1).collect();
+    let words = || clause.split_whitespace().rev();
+    let mut far = words().take(MAX_REACH).take_while(|word| !ENDS.contains(word));
+    if far.any(|word| FAR_NEGATIONS.contains(&word)) {
+        return true;
+    }
+    let near: Vec<&str> = words().filter(|word| !FILLERS.contains(word)).take(VERB_NEGATIONS.1 + 1).collect();
     let of_verb =
         |word: &&str| VERB_NEGATIONS.0.contains(word) || word.ends_with("n't") || word.ends_with("n’t");
     let of_noun = |word: &&str| NOUN_NEGATIONS.0.contains(word);
@@ -123,11 +154,12 @@ pub(super) fn is_denied(line: &str) -> bool {
 }
 
 /// Verbs with which a clause about the number before them begins.
-const VERBS: [&str; 49] = [
+const VERBS: [&str; 53] = [
     "is", "are", "was", "were", "be", "can", "could", "cannot", "would", "will", "do", "does", "did", "has",
     "have", "must", "should", "seems", "ist", "sind", "war", "waren", "wäre", "wären", "wird", "werden",
     "kann", "können", "est", "sont", "était", "serait", "peut", "n'est", "ne", "es", "son", "era", "sería",
-    "puede", "no", "è", "sono", "sarebbe", "non", "nicht", "c'est", "may", "might",
+    "puede", "no", "è", "sono", "sarebbe", "non", "nicht", "c'est", "may", "might", "stimmt", "stimmen",
+    "trifft", "gilt",
 ];
 
 /// Words that make such a clause state something else than the number.
@@ -182,7 +214,7 @@ const WRONG: [&str; 47] = [
 ];
 
 /// Words after `not` with which the clause does not deny the number: `0.44 s is not enough`.
-const HARMLESS: [&str; 20] = [
+const HARMLESS: [&str; 18] = [
     "only",
     "just",
     "merely",
@@ -191,8 +223,6 @@ const HARMLESS: [&str; 20] = [
     "enough",
     "far",
     "a",
-    "an",
-    "the",
     "surprising",
     "long",
     "nur",
@@ -228,7 +258,8 @@ pub(super) fn is_denied_after(line: &str) -> bool {
             || word.ends_with("n’t")
     };
     // `0.44 s, no more` does not deny the number.
-    let goes_on = is_relative || line.trim_start().len() == marked.len();
+    let marks = line.get(..line.len() - marked.len()).unwrap_or("");
+    let goes_on = is_relative || !marks.contains([',', '–', '—', '-', ':', '(', '?', '!']);
     if !goes_on || !VERBS.contains(first) && !is_negation(first) {
         return false;
     }
@@ -260,6 +291,9 @@ mod tests {
             " – wrong",
             " is too high",
             " ist falsch",
+            " stimmt nicht",
+            "\" is wrong",
+            " is not the speed",
             " wird nie erreicht",
             " n'est pas atteint",
             " es falso",
@@ -294,6 +328,9 @@ mod tests {
             "it moves without ",
             "it tips, but does not fall after ",
             "der Ball ist niemals ",
+            "It never quite gets up to ",
+            "It does not land at a speed of ",
+            "der Ball ist nie so schnell wie ",
             "er erreicht keinesfalls ",
             "la bille n'atteint jamais ",
             "la bola nunca alcanza ",

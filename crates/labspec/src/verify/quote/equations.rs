@@ -34,8 +34,17 @@ const MAX_NAME: usize = 12;
 /// Maximum length of an argument, in bytes.
 const MAX_ARGUMENT: usize = 60;
 
+/// The text after a command for the layout of equations at the beginning of `text`. `aligned` is the number of open environments.
+pub(super) fn layout<'t>(text: &'t str, aligned: &mut usize) -> Option<&'t str> {
+    if let Some((rest, begins)) = environment(text) {
+        *aligned = if begins { *aligned + 1 } else { aligned.saturating_sub(1) };
+        return Some(rest);
+    }
+    line_end(text).filter(|_| *aligned > 0)
+}
+
 /// The text after `\begin{aligned}` or `\end{aligned}` at the beginning of `text`, and whether the environment begins.
-pub(super) fn environment(text: &str) -> Option<(&str, bool)> {
+fn environment(text: &str) -> Option<(&str, bool)> {
     let (rest, command) = tex::command(text).ok().filter(|(_, name)| matches!(*name, "begin" | "end"))?;
     let begins = command == "begin";
     let (rest, name) = tex::group(rest, MAX_NAME).ok().filter(|(_, name)| ALIGNED.contains(name))?;
@@ -48,7 +57,7 @@ pub(super) fn environment(text: &str) -> Option<(&str, bool)> {
 }
 
 /// The text after the end of a line with the distance to the next one: `\\\\[4pt]`.
-pub(super) fn line_end(text: &str) -> Option<&str> {
+fn line_end(text: &str) -> Option<&str> {
     let (distance, rest) = text.strip_prefix("\\\\[")?.split_at_checked(MAX_NAME.min(text.len() - 3))?;
     let close = distance.find(']')?;
     text.get(text.len() - rest.len() - distance.len() + close + 1..)

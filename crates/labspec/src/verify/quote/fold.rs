@@ -30,27 +30,16 @@ pub(super) fn fold(text: &str, flat: bool) -> (String, SourceMap) {
             continue;
         }
         let c = rest.chars().next().unwrap_or(' ');
-        if let Ok((tail, rendered)) = siunitx::quantity(rest) {
+        let whole = siunitx::quantity(rest).ok().or_else(|| equations::fraction_of_units(rest));
+        if let Some((tail, rendered)) = whole {
             let end = text.len() - tail.len();
             out.whole(&rendered, offset..end);
             offset = end;
             continue;
         }
-        if let Some((tail, begins)) = equations::environment(rest) {
-            aligned = if begins { aligned + 1 } else { aligned.saturating_sub(1) };
+        if let Some(tail) = equations::layout(rest, &mut aligned) {
             out.wait(offset..text.len() - tail.len());
             offset = text.len() - tail.len();
-            continue;
-        }
-        if let Some(tail) = equations::line_end(rest).filter(|_| aligned > 0) {
-            out.wait(offset..text.len() - tail.len());
-            offset = text.len() - tail.len();
-            continue;
-        }
-        if let Some((tail, unit)) = equations::fraction_of_units(rest) {
-            let end = text.len() - tail.len();
-            out.whole(&unit, offset..end);
-            offset = end;
             continue;
         }
         if let Ok((tail, _)) = unseen(rest) {

@@ -122,6 +122,13 @@ pub(super) fn wrong_unit(claim: &QuoteClaim<'_>, outcome: &QuoteOutcome, text: &
         .help("correct the unit in the text, or convert the number in the expression")
 }
 
+pub(super) fn wrong_arithmetic(claim: &QuoteClaim<'_>, outcome: &QuoteOutcome) -> Finding {
+    let message = format!("the text says {}, but {}", shorten_quote(claim), outcome.reason);
+    at_places(rules::QUOTE_WRONG, Severity::Error, claim, outcome, message)
+        .why("the number is right, but the formula before it gives another number")
+        .help("correct the numbers in the formula")
+}
+
 pub(super) fn uncertain_unit(
     claim: &QuoteClaim<'_>,
     outcome: &QuoteOutcome,
@@ -143,7 +150,10 @@ pub(super) fn uncertain_unit(
 }
 
 pub(super) fn wrong(claim: &QuoteClaim<'_>, outcome: &QuoteOutcome, read: &Quoted) -> Finding {
-    let right = printed(read, outcome.computed);
+    let right = match read.form {
+        NumberForm::Interval(..) => significant(outcome.computed),
+        _ => printed(read, outcome.computed),
+    };
     let within = match read.form {
         NumberForm::PlusMinus(..) | NumberForm::Range(..) => ", which is outside it",
         _ => "",

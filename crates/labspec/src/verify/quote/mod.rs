@@ -4,6 +4,7 @@ mod arithmetic;
 mod asked_unit;
 mod check_quote;
 mod clause_unit;
+mod constant;
 mod context;
 mod context_after;
 mod denial;

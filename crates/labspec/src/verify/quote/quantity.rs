@@ -3,7 +3,7 @@
 
 use super::clause_unit::clause_unit;
 use super::context::before;
-use super::context_after::after;
+use super::context_after::{after, denied_after};
 use super::number::{NumberForm, Quoted, Style, ten};
 use super::numeral::{Chars, DECIMAL_COMMA, Numeral, numbers};
 use super::unit_text::{Link, Unit, unit_after};
@@ -106,7 +106,8 @@ fn read(chars: Chars<'_>, separate: bool) -> Vec<Quantity> {
         q.refused = q
             .refused
             .or_else(|| before(chars, q.whole.start))
-            .or_else(|| after(chars, q.whole.end, q.unit.is_some()));
+            .or_else(|| after(chars, q.whole.end, q.unit.is_some()))
+            .or_else(|| denied_after(chars, q.whole.end));
     }
     refuse_compounds(chars, &mut all);
     share(chars, &mut all);

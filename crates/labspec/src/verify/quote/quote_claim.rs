@@ -75,4 +75,6 @@ pub(in crate::verify) struct QuotePlace {
     /// The unit that the text has after the last number of the quote, or in the heading of its column, where the quote
     /// itself has none.
     pub(in crate::verify) unit: Option<Unit>,
+    /// The value of constant arithmetic before it and an equality sign.
+    pub(in crate::verify) arithmetic: Option<f64>,
 }

@@ -1,6 +1,7 @@
 //! The rendered text of a lesson: prose, headings, cells, captions, printed output, and the displayed texts of labs and
 //! quizzes. Keys, code, listings, attributes and comments are not part of it.
 
+use super::constant::value_before;
 use super::denial::is_denied;
 use super::markdown_cell::{is_head_of_units, unit_of_cell, unit_of_column};
 use super::pieces::rendered_pieces;
@@ -61,12 +62,16 @@ impl RenderedText {
                 // A number in a cell has the unit of its column.
                 let of_column = || unit_of_column(file, span.start);
                 let unit = if has_number(quote) { Option::or_else(unit, of_column) } else { None };
-                QuotePlace { span, unit }
+                QuotePlace { arithmetic: value_before(file, span.start), span, unit }
             };
             let mut places: Vec<_> =
                 found.chain(words.into_iter().map(|span| (span, None))).map(place).collect();
             if places.is_empty() {
-                places.extend(sliders.get(quote).map(|span| QuotePlace { span: span.clone(), unit: None }));
+                places.extend(sliders.get(quote).map(|span| QuotePlace {
+                    span: span.clone(),
+                    unit: None,
+                    arithmetic: None,
+                }));
             }
             places.sort_by_key(|p| (p.span.start, p.span.end));
             places.dedup();

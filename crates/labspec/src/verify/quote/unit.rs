@@ -1,6 +1,6 @@
 //! Units that differ by a power of ten: the text says 0.83 mm, the expression gives 0.00083.
 
-use super::number::{Quoted, ten};
+use super::number::{NumberForm, Quoted, ten};
 use labspec_bind::units::PREFIXES;
 
 /// The difference between the number of a text and the value of an expression.
@@ -36,6 +36,10 @@ fn parts(unit: &str) -> Option<(i32, &str, i32)> {
 /// The power of ten between a quoted number that differs and the computed one, if units explain it or it is unlikely to be
 /// a coincidence.
 pub(super) fn shift(quoted: &Quoted, unit: &str, computed: f64) -> Option<Shift> {
+    // A wide range contains many powers of ten.
+    if matches!(quoted.form, NumberForm::Range(low, high) if high > 3.0 * low) {
+        return None;
+    }
     if quoted.value == 0.0 || computed == 0.0 || !computed.is_finite() {
         return None;
     }

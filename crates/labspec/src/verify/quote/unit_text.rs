@@ -118,7 +118,17 @@ fn unit(line: &str) -> IResult<&str, Unit> {
 
 /// The suffix of a factor after a hyphen: `3-fold`, `3-mal`.
 fn factor_suffix(text: &str) -> IResult<&str, &str> {
-    alt((tag("fold"), tag("mal"), tag("fachen"), tag("fache"), tag("fach"))).parse(text)
+    alt((
+        tag("fold"),
+        tag("mal"),
+        tag("fachen"),
+        tag("facher"),
+        tag("faches"),
+        tag("fachem"),
+        tag("fache"),
+        tag("fach"),
+    ))
+    .parse(text)
 }
 
 /// Words for a factor of another quantity, which is a number without a unit: `2.45 times the speed on the moon`.
@@ -146,7 +156,12 @@ fn counted_rate(text: &str) -> IResult<&str, Unit> {
 /// A rate of things that are not known: `3 body lengths per second`. Its dimension is that of counted things.
 fn phrase_rate(text: &str) -> IResult<&str, Unit> {
     let things = (word, opt((char(' '), word)));
-    let (rest, (text, (_, _, (_, dimension)))) = consumed((things, tag(" per "), known_unit)).parse(text)?;
+    let (rest, (text, (_, _, (_, dimension)))) = consumed((
+        things,
+        alt((tag(" per "), terminated(tag(" a "), peek(alt((tag("second"), tag("minute"))))))),
+        known_unit,
+    ))
+    .parse(text)?;
     Ok((rest, unit_named(text, dimension.and_then(|d| d.power(-1.0)))))
 }
 

@@ -300,6 +300,10 @@ fn quantities_in_formulas_brackets_and_words_are_right() {
         ("It takes 2.45 times the time on the earth.", "2.45", 2.453, "1"),
         ("It bounces 3 times.", "3", 3.0, "1"),
         ("It swings 0.70 times per second.", "0.70", 0.704, "1/s"),
+        ("1.65 m instead of 1.42 m", "1.42 m", 1.42, "m"),
+        ("above the 0.5 m line", "0.5 m", 0.5, "m"),
+        ("less than the 0.5 m that are needed", "0.5 m", 0.5, "m"),
+        ("$v = \\sqrt{2 \\cdot 9.81 \\cdot 0.8} = 3.96$ m/s", "3.96", 3.963, "m/s"),
     ] {
         assert_eq!(state(text, quote, computed, unit), RIGHT, "{quote} in {text}");
     }
@@ -344,6 +348,14 @@ fn words_that_state_something_else_are_not_right() {
         ("It lies at x = height – 3.96 m/s.", "3.96 m/s"),
         ("It is 5 m/s – 3.96 m/s.", "3.96 m/s"),
         ("It moves at (3.96 ± 0.01)² m/s.", "3.96 ± 0.01"),
+        ("It never quite gets up to 3.96 m/s.", "3.96 m/s"),
+        ("Er verfehlt die 3,96 m/s.", "3,96 m/s"),
+        ("La palla supera i 3,96 m/s.", "3,96 m/s"),
+        ("It lands at 3.96 m/s at the latest.", "3.96 m/s"),
+        ("It lands at 3.96 body lengths a second.", "3.96"),
+        ("It lands at Mach 3.96.", "3.96"),
+        ("Er landet mit 3,96-facher Schallgeschwindigkeit.", "3,96"),
+        ("$v = \\sqrt{2 \\cdot 9.81 \\cdot 3.5} = 3.96$ m/s", "3.96"),
     ] {
         assert_ne!(state(text, quote, 3.963, "m/s"), RIGHT, "{quote} in {text}");
     }
