@@ -82,7 +82,13 @@ fn looks_like_degrees(control: &Control) -> bool {
 
 /// The place where a text stores a value without conversion in an angle.
 fn stored_unconverted(names: &dyn Schema, text: &Text, name: &str) -> Option<std::ops::Range<usize>> {
-    let is_plain = |value: &str| without_spaces(value) == name || without_spaces(value) == format!("-{name}");
+    // A fallback, as in `ctx.a || 0`, is no conversion.
+    let is_plain = |value: &str| {
+        let value = without_spaces(value);
+        let inside = value.trim_start_matches(['(', '-']).trim_end_matches(')');
+        let rest = inside.strip_prefix(name);
+        rest.is_some_and(|rest| rest.is_empty() || rest.starts_with("||") || rest.starts_with("??"))
+    };
     let stored = assignments(text)
         .into_iter()
         .find(|a| a.op.is_none() && is_plain(&a.value) && is_angle(names, &a.target))?;
