@@ -276,3 +276,21 @@ fn comments_do_not_divide() {
     );
     none(&["ctx.a = data.time // in s", "ctx.a = 'http://2'", "// 2\nctx.a = 1", "ctx.a = 1; // 2"]);
 }
+
+#[test]
+fn an_assignment_in_an_expression_moves() {
+    let report = |source: &str| {
+        let mut globals = Globals::new();
+        let all = Compiler::new(&Mock, &mut globals).expression(source).diagnostics;
+        all.first().map(|f| (f.code, f.help.clone().unwrap_or_default(), f.fix.is_some()))
+    };
+    let moved = |source: &str| {
+        let (code, help, fixed) = report(source).unwrap_or_default();
+        assert_eq!((code, fixed), ("expression-only", false), "{source}");
+        assert_eq!(help, "move the assignment to `tick`, and write `ctx.peak` here", "{source}");
+    };
+    moved("ctx.peak = Math.max(ctx.peak || 0, data.time)");
+    moved("ctx.peak = data.time + 1");
+    assert_eq!(report("data.time = 1 ? 2 : 3").map(|(code, ..)| code), Some("assign-inside"));
+    assert_eq!(report("ctx.mode = 1 ? 2 : 3").map(|(code, ..)| code), Some("assign-inside"));
+}

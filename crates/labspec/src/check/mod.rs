@@ -1,6 +1,7 @@
 //! The complete check of a lesson: structure, names, runs of every lab, verdicts of every question.
 
 mod allowed;
+pub(crate) mod assignments;
 pub(crate) mod choices;
 mod claim_id;
 mod claims;
@@ -15,6 +16,8 @@ pub(crate) mod observations;
 mod partners;
 mod prepared_lab;
 mod printed_numbers;
+#[cfg(test)]
+mod program_lints_tests;
 pub(crate) mod programs;
 mod reproduce;
 mod resolved_labs;
@@ -277,6 +280,13 @@ fn prepare<'l>(
         units::check_units(lab, &model, &programs, findings);
         rules::label_names_another::check_names(lab, &model, &programs, findings);
         rules::label_axis::check_axes(lab, &model, &programs, findings);
+        rules::force_accumulates::check_controller(lab, &model, findings);
+        rules::force_stays::check_buttons(lab, &programs, findings);
+        rules::kept_over_reset::check_variables(lab, &programs, findings);
+        rules::same_target::check_targets(lab, &model, &programs, findings);
+        rules::world_element::check_elements(&model, &programs, findings);
+        rules::local_position::check_displays(&model, &programs, findings);
+        rules::degrees_without_unit::check_controls(lab, &model, findings);
     }
     Some(PreparedLab { lab, model, programs, mistakes })
 }

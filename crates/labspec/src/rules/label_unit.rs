@@ -275,12 +275,27 @@ fn parameters<'l>(lab: &'l Lab, programs: &'l Programs) -> impl Iterator<Item = 
     })
 }
 
+/// The dimension without a small whole factor or divisor: half of an angle in degrees is in degrees, too.
+fn multiplied(found: &Dimension) -> Dimension {
+    let ratio = found.factor.abs() / 1f64.to_degrees();
+    let is_small =
+        [2.0, 3.0, 4.0, 1.0 / 2.0, 1.0 / 3.0, 1.0 / 4.0].into_iter().any(|k| (ratio / k - 1.0).abs() < 1e-6);
+    let mut whole = *found;
+    if is_small {
+        whole.factor = 1f64.to_degrees();
+    }
+    whole
+}
+
 /// Reports functions that take radians, but receive an angle in degrees.
 pub(crate) fn degrees_passed(bound: &Bound, measured: &TextDimensions, findings: &mut Vec<Finding>) {
     let mut reported = Vec::new();
     for argument in &measured.angles {
         let Measure::Dimension(found) = argument.measure else { continue };
-        if !in_degrees(&found) || reported.contains(&argument.span) || reported.len() >= super::MAX_IN_TEXT {
+        if !in_degrees(&multiplied(&found))
+            || reported.contains(&argument.span)
+            || reported.len() >= super::MAX_IN_TEXT
+        {
             continue;
         }
         reported.push(argument.span);

@@ -198,6 +198,13 @@ impl<'a> Binder<'a> {
     fn not_here(&self, expr: &Expr) -> Finding {
         let span = expr.span;
         match &expr.kind {
+            ExprKind::Assign { op: None, op_span, target, value } if self.stores_variable(target, value) => {
+                self.assignment_inside(Some(BinaryOp::Add), *op_span, span).help(format!(
+                    "move the assignment to {}, and write `{}` here",
+                    self.host_terms().keeper,
+                    self.text(target.span)
+                ))
+            }
             ExprKind::Assign { op, op_span, .. } => self.assignment_inside(*op, *op_span, span),
             ExprKind::AssignLogical { op_span, .. } => {
                 self.assignment_inside(Some(BinaryOp::Add), *op_span, span)
@@ -211,6 +218,22 @@ impl<'a> Binder<'a> {
             _ => Finding::error(rules::MISPLACED, span, "this is not allowed inside an expression")
                 .help("write a single value"),
         }
+    }
+
+    /// Whether an assignment in an expression stores a variable deliberately: `ctx.peak = Math.max(ctx.peak || 0, x)`. A choice or a
+    /// plain number after `=` suggests a comparison.
+    fn stores_variable(&self, target: &Expr, value: &Expr) -> bool {
+        let is_variable = matches!(&target.kind, ExprKind::Member { object, .. } if matches!(&object.kind, ExprKind::Name(n) if n == "ctx"));
+        let compares = matches!(
+            value.kind,
+            ExprKind::Conditional { .. }
+                | ExprKind::Logical { .. }
+                | ExprKind::Number(_)
+                | ExprKind::String(_)
+                | ExprKind::Boolean(_)
+                | ExprKind::Null
+        );
+        self.mode == TextKind::Expression && is_variable && !compares
     }
 
     /// Binds both operands before it returns, so that an error in one does not hide an error in the other.
