@@ -53,7 +53,8 @@ impl LintPass<'_> {
     /// Warns about `data.time === 1`.
     #[inline(never)]
     pub(super) fn exact(&mut self, op: BinaryOp, left: &Expr, right: &Expr, span: Span) {
-        if op.power() != 8 {
+        // A comparison as a statement is reported as an assignment that was meant.
+        if op.power() != 8 || self.typed.is_idle(span) {
             return;
         }
         let (number, value) = match (self.literal(left), self.literal(right)) {
