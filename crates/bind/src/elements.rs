@@ -132,13 +132,13 @@ fn slide_axis(m: &Model, joint: usize) -> Option<usize> {
     /// The sine of the largest angle between the slide and the axis.
     const ALIGNED: f64 = 1e-6;
     let mut axis = *m.jnt_axis.get(3 * joint..3 * joint + 3)?.first_chunk::<3>()?;
-    let own = usize::try_from(*m.jnt_bodyid.get(joint)?).ok()?;
-    let mut body = own;
+    let first_body = usize::try_from(*m.jnt_bodyid.get(joint)?).ok()?;
+    let mut body = first_body;
     while body != 0 {
         let turned = (0..m.njnt).any(|j| {
             m.jnt_bodyid.get(j).and_then(|b| usize::try_from(*b).ok()) == Some(body)
                 && m.jnt_type.get(j) != Some(&joint::SLIDE)
-                && (body != own || j < joint)
+                && (body != first_body || j < joint)
         });
         if turned {
             return None;

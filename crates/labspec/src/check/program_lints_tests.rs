@@ -118,15 +118,15 @@ fn controls_with_one_target() {
 
 #[test]
 fn elements_of_the_world() {
-    let shown = |text: &str| codes(json!({"readouts": [{"label": "shown", "expr": text}]}));
+    let readout = |text: &str| codes(json!({"readouts": [{"label": "shown", "expr": text}]}));
     assert_eq!(codes(json!({"controller": "data.xfrc_applied[2] = 20"})), ["world-element"]);
-    assert_eq!(shown("0.5 * model.body_mass[0] * data.qvel[0] ** 2"), ["world-element"]);
-    assert_eq!(shown("data.geom_xpos[2]"), ["local-position"]);
-    assert_eq!(shown("model.site('tip').pos[2]"), ["local-position"]);
+    assert_eq!(readout("0.5 * model.body_mass[0] * data.qvel[0] ** 2"), ["world-element"]);
+    assert_eq!(readout("data.geom_xpos[2]"), ["local-position"]);
+    assert_eq!(readout("model.site('tip').pos[2]"), ["local-position"]);
     for text in
         ["model.body_mass[1]", "data.geom_xpos[5]", "data.site('tip').xpos[2]", "data.geom('floor').xpos[2]"]
     {
-        assert_eq!(shown(text), Vec::<&str>::new(), "{text}");
+        assert_eq!(readout(text), Vec::<&str>::new(), "{text}");
     }
 }
 

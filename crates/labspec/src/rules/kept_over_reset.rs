@@ -32,8 +32,8 @@ pub(crate) fn check_variables(lab: &Lab, programs: &Programs, findings: &mut Vec
         else {
             continue;
         };
-        let own = |slot: &&u32| programs.globals.name(**slot) == name;
-        let Some(slot) = controller.program.effects().ctx_writes.iter().find(own) else { continue };
+        let of_lab = |slot: &&u32| programs.globals.name(**slot) == name;
+        let Some(slot) = controller.program.effects().ctx_writes.iter().find(of_lab) else { continue };
         let of_control = |program: &ControlProgram| match program {
             ControlProgram::Change(_, action) => action.param == Some(*slot),
             ControlProgram::Press(_) => false,

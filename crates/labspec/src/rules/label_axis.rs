@@ -89,8 +89,8 @@ fn check_axis(label: &Text, bound: &Bound, model: &Model) -> Option<Finding> {
         NamedDirection::Vertical(word) if axis.index != up => (word, Some(up)),
         NamedDirection::Horizontal(word) if axis.index == up => (word, None),
         // Along a slide, `x` is often any displacement.
-        NamedDirection::Axis(wanted) if axis.of_three && axis.index != wanted => {
-            (letter(wanted).to_owned(), Some(wanted))
+        NamedDirection::Axis(named_axis) if axis.of_three && axis.index != named_axis => {
+            (letter(named_axis).to_owned(), Some(named_axis))
         }
         _ => return None,
     };

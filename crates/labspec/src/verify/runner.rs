@@ -88,9 +88,9 @@ fn key(request: &RunRequest<'_, '_>) -> String {
 /// A text of the settings of a run: equal for runs that are the same simulation. A control that a run does not set has its value.
 pub(super) fn settings_key(scene: &BoundScene<'_>, run: &BoundRun<'_>) -> String {
     let lab = &scene.scene.lab;
-    let own = run.spec.map_or(&[][..], |spec| &spec.set);
+    let set_by_run = run.spec.map_or(&[][..], |spec| &spec.set);
     let value = |control: &Control| {
-        let set = own.iter().rev().find(|(label, _)| label.as_str() == control.label.as_str());
+        let set = set_by_run.iter().rev().find(|(label, _)| label.as_str() == control.label.as_str());
         match (set, &control.kind) {
             (Some((_, value)), _) => Some(format!("{:?}", scalar(value))),
             (None, ControlKind::Slider { value, .. }) => Some(format!("{:?}", Value::Number(value.value))),
@@ -99,7 +99,7 @@ pub(super) fn settings_key(scene: &BoundScene<'_>, run: &BoundRun<'_>) -> String
         }
     };
     let controls: Vec<Option<String>> = lab.controls.iter().map(value).collect();
-    let others: Vec<&str> = own
+    let others: Vec<&str> = set_by_run
         .iter()
         .map(|(label, _)| label.as_str())
         .filter(|label| !lab.controls.iter().any(|control| control.label.as_str() == *label))

@@ -27,7 +27,7 @@ const MAX_BARE_WORDS: usize = 3;
 
 /// A measured value with its dimension.
 #[derive(Clone, Copy, Debug)]
-struct Known {
+struct MeasuredQuantity {
     value: f64,
     dimension: Dimension,
 }
@@ -65,12 +65,12 @@ fn contradiction(
     let compared = compared_values(bound, outcome, condition)?;
     let all = measured_values(bound, outcome, &compared);
     let stated = quantities_in(&text.value, bound.stage().languages());
-    let of = |q: &OptionNumber, known: &Known| {
+    let of = |q: &OptionNumber, measured: &MeasuredQuantity| {
         let is_share = q.unit.percentage().is_some();
-        q.unit.dimension.filter(|_| !is_share).and_then(|expected| conversion(&expected, &known.dimension))
+        q.unit.dimension.filter(|_| !is_share).and_then(|expected| conversion(&expected, &measured.dimension))
     };
     let about_it: Vec<&OptionNumber> =
-        stated.iter().filter(|q| compared.iter().any(|known| of(q, known).is_some())).collect();
+        stated.iter().filter(|q| compared.iter().any(|measured| of(q, measured).is_some())).collect();
     if about_it.is_empty() {
         return wrong_unit(&stated, &compared).or_else(|| wrong_ratio(text, &compared, &all));
     }
@@ -78,8 +78,8 @@ fn contradiction(
     let agrees = |q: &OptionNumber| {
         // A bound is one of what the condition compares first, not of any difference.
         let is_bound = !(q.low.is_finite() && q.high.is_finite());
-        let known = if is_bound { compared.get(..1).unwrap_or_default() } else { &all };
-        let measured = combinations(known, |known| of(q, known)).into_iter();
+        let measured = if is_bound { compared.get(..1).unwrap_or_default() } else { &all };
+        let measured = combinations(measured, |measured| of(q, measured)).into_iter();
         let mut values = measured.flat_map(|x| if is_bound { [x, x] } else { [x, -x] });
         values.any(|x| q.low <= x && x <= q.high) || given.iter().any(|x| is_number_of(q, *x))
     };
@@ -87,7 +87,7 @@ fn contradiction(
         return None;
     }
     let q = about_it.first()?;
-    let nearest = compared.iter().find_map(|known| Some(known.value * of(q, known)?))?;
+    let nearest = compared.iter().find_map(|measured| Some(measured.value * of(q, measured)?))?;
     Some(format!("the text says {}, but the condition compares {}", q.text, significant(nearest)))
 }
 
@@ -99,38 +99,46 @@ fn is_number_of(q: &OptionNumber, x: f64) -> bool {
 }
 
 /// A number that is that of the simulation, with a unit of another dimension.
-fn wrong_unit(stated: &[OptionNumber], compared: &[Known]) -> Option<String> {
+fn wrong_unit(stated: &[OptionNumber], compared: &[MeasuredQuantity]) -> Option<String> {
     let [q] = stated else { return None };
-    let differs = q.unit.dimension.is_some_and(|d| compared.iter().all(|known| !d.agrees(&known.dimension)));
+    let differs =
+        q.unit.dimension.is_some_and(|d| compared.iter().all(|measured| !d.agrees(&measured.dimension)));
     let scale = q.unit.percentage().unwrap_or(1.0);
-    let close =
-        |known: &&Known| known.value != 0.0 && q.low * scale <= known.value && known.value <= q.high * scale;
-    let known = compared.iter().find(close).filter(|_| differs)?;
+    let close = |measured: &&MeasuredQuantity| {
+        measured.value != 0.0 && q.low * scale <= measured.value && measured.value <= q.high * scale
+    };
+    let measured = compared.iter().find(close).filter(|_| differs)?;
     Some(format!(
         "the text says {}, but the condition compares {} {}",
         q.text,
-        significant(known.value),
-        written(&known.dimension)
+        significant(measured.value),
+        written(&measured.dimension)
     ))
 }
 
 /// A ratio in words that is that of no two measured values.
-fn wrong_ratio(text: &Text, compared: &[Known], all: &[Known]) -> Option<String> {
+fn wrong_ratio(text: &Text, compared: &[MeasuredQuantity], all: &[MeasuredQuantity]) -> Option<String> {
     let stated = option_ratio(&text.value)?;
-    let is_named = |known: &&Known| stated.named.iter().any(|d| d.agrees(&known.dimension));
+    let is_named = |measured: &&MeasuredQuantity| stated.named.iter().any(|d| d.agrees(&measured.dimension));
     let is_bare = stated.named.is_empty() && text.value.split_whitespace().count() <= MAX_BARE_WORDS;
     let about_it = match is_bare {
         true => compared
             .iter()
-            .find(|known| !known.dimension.is_number())
-            .or(all.iter().find(|known| !known.dimension.is_number())),
+            .find(|measured| !measured.dimension.is_number())
+            .or(all.iter().find(|measured| !measured.dimension.is_number())),
         false => all.iter().find(is_named),
     };
     let about_it = about_it?.dimension;
-    let same: Vec<f64> =
-        all.iter().filter(|known| known.dimension.agrees(&about_it)).map(|known| known.value).collect();
+    let same: Vec<f64> = all
+        .iter()
+        .filter(|measured| measured.dimension.agrees(&about_it))
+        .map(|measured| measured.value)
+        .collect();
     let ratios: Vec<f64> = pairs(&same).map(|(a, b)| (a / b).abs()).filter(|x| x.is_finite()).collect();
-    let alone = compared.iter().filter(|known| known.dimension.is_number()).map(|known| known.value.abs());
+    let alone = compared
+        .iter()
+        .filter(|measured| measured.dimension.is_number())
+        .map(|measured| measured.value.abs());
     let close = |x: f64| stated.may_be.iter().any(|y| (x - y).abs() <= RATIO_TOLERANCE * y.abs());
     let nearest = ratios.iter().copied().find(|x| *x >= 1.0)?;
     let none = !ratios.iter().copied().chain(alone).any(close);
@@ -145,14 +153,19 @@ fn pairs(list: &[f64]) -> impl Iterator<Item = (f64, f64)> {
 }
 
 /// The values that a text may state: the measured ones, their differences and sums, in the unit that `factor` converts to.
-fn combinations(all: &[Known], factor: impl Fn(&Known) -> Option<f64>) -> Vec<f64> {
-    let own: Vec<f64> = all.iter().filter_map(|known| Some(known.value * factor(known)?)).collect();
-    let combined: Vec<f64> = pairs(&own).flat_map(|(a, b)| [a - b, a + b]).collect();
-    own.into_iter().chain(combined).collect()
+fn combinations(all: &[MeasuredQuantity], factor: impl Fn(&MeasuredQuantity) -> Option<f64>) -> Vec<f64> {
+    let converted: Vec<f64> =
+        all.iter().filter_map(|measured| Some(measured.value * factor(measured)?)).collect();
+    let combined: Vec<f64> = pairs(&converted).flat_map(|(a, b)| [a - b, a + b]).collect();
+    converted.into_iter().chain(combined).collect()
 }
 
 /// The values that a condition compares, as far as they are measured; `None` if the dimension of one is not known.
-fn compared_values(bound: &BoundVerify<'_>, outcome: &MeasuredRuns, condition: &Text) -> Option<Vec<Known>> {
+fn compared_values(
+    bound: &BoundVerify<'_>,
+    outcome: &MeasuredRuns,
+    condition: &Text,
+) -> Option<Vec<MeasuredQuantity>> {
     let mut texts = Vec::new();
     compared_texts(&parse_expression(&condition.value).tree, &mut texts)?;
     let mut all = Vec::new();
@@ -161,7 +174,7 @@ fn compared_values(bound: &BoundVerify<'_>, outcome: &MeasuredRuns, condition: &
         let found = bound.find(outcome, &text, &mut Vec::new())?.value.to_number();
         let dimension = units::of_claim(bound, outcome, &text)?;
         if found.is_finite() && dimension.is_exact() {
-            all.push(Known { value: found, dimension });
+            all.push(MeasuredQuantity { value: found, dimension });
         }
     }
     (!all.is_empty()).then_some(all)
@@ -215,7 +228,11 @@ fn is_number(e: &Expr) -> bool {
 }
 
 /// The values of all measures of a known dimension, and those of the condition.
-fn measured_values(bound: &BoundVerify<'_>, outcome: &MeasuredRuns, compared: &[Known]) -> Vec<Known> {
+fn measured_values(
+    bound: &BoundVerify<'_>,
+    outcome: &MeasuredRuns,
+    compared: &[MeasuredQuantity],
+) -> Vec<MeasuredQuantity> {
     let dimension = |name: &str| {
         let runs = &bound.units()?.runs;
         let (_, measure) = runs.iter().flatten().find(|(of_run, _)| of_run == name)?;
@@ -225,8 +242,9 @@ fn measured_values(bound: &BoundVerify<'_>, outcome: &MeasuredRuns, compared: &[
         }
     };
     let measures = outcome.runs.iter().flat_map(|run| &run.measures).filter(|(_, x)| x.is_finite());
-    let known = measures.filter_map(|(name, x)| Some(Known { value: *x, dimension: dimension(name)? }));
-    compared.iter().copied().chain(known).take(MAX_VALUES).collect()
+    let measured =
+        measures.filter_map(|(name, x)| Some(MeasuredQuantity { value: *x, dimension: dimension(name)? }));
+    compared.iter().copied().chain(measured).take(MAX_VALUES).collect()
 }
 
 /// Numbers that a text may repeat: those of the question and of the settings of the runs.

@@ -107,6 +107,9 @@ fn operands<'e>(op: LogicalOp, expr: &'e Expr, all: &mut Vec<&'e Expr>) {
     }
 }
 
+/// A part of a condition: the whole comparison, its operator with the constant on the right, and the constant.
+type Comparison<'e> = (&'e Expr, BinaryOp, f64);
+
 impl LintPass<'_> {
     /// A comparison of an expression with a constant: the expression, the operator with the constant on the right, the constant.
     fn compared<'e>(&self, expr: &'e Expr) -> Option<(&'e Expr, BinaryOp, f64)> {
@@ -123,7 +126,7 @@ impl LintPass<'_> {
 
     /// The first two comparisons that cannot hold together; with `negate`, that cannot fail together.
     fn contradiction<'e>(&self, parts: &[&'e Expr], negate: bool) -> Option<(&'e Expr, &'e Expr)> {
-        let mut limits: BTreeMap<String, (Limits, Vec<(&Expr, BinaryOp, f64)>)> = BTreeMap::new();
+        let mut limits: BTreeMap<String, (Limits, Vec<Comparison<'e>>)> = BTreeMap::new();
         for part in parts {
             let Some((number, op, x)) = self.compared(part) else { continue };
             let op = if negate { negated(op) } else { op };
@@ -199,9 +202,9 @@ impl LintPass<'_> {
             return;
         }
         let holds = |op: BinaryOp| {
-            let mut kept = possible;
-            kept.keep(op, x);
-            !kept.is_empty()
+            let mut limits = possible;
+            limits.keep(op, x);
+            !limits.is_empty()
         };
         let result = match (holds(op), holds(negated(op))) {
             (false, _) => "false",
@@ -312,13 +315,13 @@ impl LintPass<'_> {
     #[inline(never)]
     pub(super) fn searched(&mut self, callee: &Expr, args: &[Expr], span: Span) {
         let ExprKind::Member { object, name, .. } = &callee.kind else { return };
-        let [Expr { kind: ExprKind::String(wanted), .. }] = args else { return };
+        let [Expr { kind: ExprKind::String(searched_text), .. }] = args else { return };
         if !["includes", "indexOf", "lastIndexOf"].contains(&name.text.as_str()) {
             return;
         }
         let ExprKind::Call { callee: of, .. } = &self.definition(object).kind else { return };
         let Some(part) = self.function_of(of).and_then(|id| self.schema.entries_contain(id)) else { return };
-        if wanted.contains(part) {
+        if searched_text.contains(part) {
             return;
         }
         let [list, text] = [object, of].map(|e| self.text(e.span).to_owned());

@@ -81,7 +81,7 @@ pub(super) fn fraction_of_units(text: &str) -> Option<(&str, String)> {
     let whole =
         |unit: String| if unit.chars().all(char::is_alphanumeric) { unit } else { format!("({unit})") };
     let (above, below) = (plain(above), plain(below));
-    let known = (above == "1" || units::is_unit(&above)) && units::is_unit(&below) && below != "1";
+    let units = (above == "1" || units::is_unit(&above)) && units::is_unit(&below) && below != "1";
     let unit = format!("{}/{}", whole(above), whole(below));
-    (known && units::is_unit(&unit)).then_some((rest, unit))
+    (units && units::is_unit(&unit)).then_some((rest, unit))
 }

@@ -58,26 +58,7 @@ pub(super) fn fold(text: &str, flat: bool) -> (String, SourceMap) {
             _ => (meaning(c, flat), c.len_utf8()),
         };
         let range = offset..offset + length;
-        match what {
-            Meaning::Space => out.wait(range),
-            Meaning::Nothing => {}
-            Meaning::Separator => out.separate(offset),
-            Meaning::Tilde if out.text.ends_with(|c: char| c.is_ascii_digit()) && out.space.is_none() => {
-                out.wait(range)
-            }
-            Meaning::Tilde => out.push('~', range, text),
-            Meaning::Letter(c) => out.push(c, range, text),
-            Meaning::Script(mark, digit) => out.script(mark, digit, range, text),
-            Meaning::Operator(c) => {
-                out.space = None;
-                out.push(c, range, text);
-                out.glue = true;
-            }
-            Meaning::Verbatim => {
-                let word = rest.get(..length).unwrap_or("");
-                out.run(word, offset);
-            }
-        }
+        out.write(what, range, text);
         offset += length;
     }
     (out.text, out.map)
@@ -205,6 +186,30 @@ struct Out {
 }
 
 impl Out {
+    /// Writes a character or a command of this meaning.
+    fn write(&mut self, what: Meaning, range: Range<usize>, text: &str) {
+        match what {
+            Meaning::Space => self.wait(range),
+            Meaning::Nothing => {}
+            Meaning::Separator => self.separate(range.start),
+            Meaning::Tilde if self.text.ends_with(|c: char| c.is_ascii_digit()) && self.space.is_none() => {
+                self.wait(range)
+            }
+            Meaning::Tilde => self.push('~', range, text),
+            Meaning::Letter(c) => self.push(c, range, text),
+            Meaning::Script(mark, digit) => self.script(mark, digit, range, text),
+            Meaning::Operator(c) => {
+                self.space = None;
+                self.push(c, range, text);
+                self.glue = true;
+            }
+            Meaning::Verbatim => {
+                let word = text.get(range.clone()).unwrap_or("");
+                self.run(word, range.start);
+            }
+        }
+    }
+
     fn wait(&mut self, range: Range<usize>) {
         let start = self.space.as_ref().map_or(range.start, |s| s.start);
         self.space = Some(start..range.end);

@@ -148,8 +148,8 @@ pub(in crate::verify) fn option_ratio(option: &str) -> Option<OptionRatio> {
         ([q], [])
             if q.refused.is_none() && matches!(q.quoted.form, NumberForm::Plain(_) | NumberForm::Share) =>
         {
-            let own = q.unit.as_ref().is_some_and(|unit| unit.is_own());
-            let text = chars.text(q.whole.start, if own { q.whole.end } else { q.number_end });
+            let first_words = q.unit.as_ref().is_some_and(|unit| unit.is_own());
+            let text = chars.text(q.whole.start, if first_words { q.whole.end } else { q.number_end });
             let start = chars.text(0, q.whole.start).len();
             let place = start..start + text.len();
             match q.unit.as_ref().filter(|unit| unit.is_own()) {
