@@ -100,7 +100,8 @@ fn files_that_pages_name_exist() {
             let of_code = name.ends_with(".rs") || name.ends_with(".py") || name.ends_with(".sh");
             let folder = name.ends_with('/') && name.matches('/').count() > 1;
             let plain = name.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '/' | '.' | '_' | '-'));
-            if !plain || !(of_code || folder) {
+            let is_sign = !name.contains(|c: char| c.is_ascii_alphanumeric());
+            if !plain || is_sign || !(of_code || folder) {
                 continue;
             }
             let end = format!("/{}", name.trim_end_matches('/'));

@@ -227,7 +227,7 @@ fn a_limit_is_found_by_halving() {
         find
     };
     for (find, words) in [
-        (with("to", json!(0.02)), "over the whole range from 0.001 to 0.02"),
+        (with("to", json!(0.02)), "at both ends of the range from 0.001 to 0.02"),
         (with("from", json!(0.03)), "at neither end of the range"),
         (with("while", json!("z < 0.049")), "it has a smallest value, but no largest"),
         (with("while", json!("Math.sin(700 * initial(model.opt.timestep)) > 0.5")), "more than once"),

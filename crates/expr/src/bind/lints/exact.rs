@@ -81,7 +81,7 @@ impl LintPass<'_> {
             .why("the steps are fractions that are rounded, so that the sum misses the number by a little");
         let flag = "a flag that is set once, as `if (!ctx.done && ";
         self.found.push(match self.is_remainder(number) {
-            true => report.help("store the next time, as `if (data.time >= ctx.next) { ctx.next += 1; … }` with `ctx.next = 1` in `setup`"),
+            true => report.help("store the next time, as `if (data.time >= ctx.next) { ctx.next += 1; … }`, with `ctx.next = 1` at the start"),
             false => report.help(format!(
                 "write `{text} >= {x}` with {flag}{text} >= {x}) {{ ctx.done = true; … }}`, or a tolerance, as `Math.abs({text} - {x}) < 0.001`"
             )),

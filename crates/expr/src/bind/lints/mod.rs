@@ -4,6 +4,7 @@
 mod angles;
 mod compare;
 mod conditions;
+mod constants;
 mod definitions;
 mod exact;
 mod idle;

@@ -1,6 +1,6 @@
 //! The traversal of a source text by the lints.
 
-use super::definitions::{Definitions, definitions};
+use super::constants::{Definitions, definitions};
 use crate::ast::{BinaryOp, Body, Element, Expr, ExprKind, Pattern, Property, Stmt, StmtKind};
 use crate::bind::source::SourceTree;
 use crate::bind::types::{Expectation, TypedText};

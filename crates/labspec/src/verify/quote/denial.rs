@@ -235,6 +235,17 @@ const HARMLESS: [&str; 18] = [
     "because",
 ];
 
+/// Verbs whose negation denies another thing than the number, unless the clause is about what is right: `the bar of 0.5 kg does not
+/// fall`, but `0.5 kg cannot be right`.
+const AUXILIARIES: [&str; 18] = [
+    "do", "does", "did", "has", "have", "will", "would", "can", "could", "cannot", "may", "might", "must",
+    "should", "kann", "können", "peut", "puede",
+];
+const RIGHT: [&str; 14] = [
+    "be", "right", "correct", "true", "hold", "possible", "sein", "stimmen", "richtig", "wahr", "être",
+    "juste", "ser", "correcto",
+];
+
 /// Number of words of such a clause that are read.
 const MAX_WORDS: usize = 5;
 
@@ -263,10 +274,11 @@ pub(super) fn is_denied_after(line: &str) -> bool {
     if !goes_on || !VERBS.contains(first) && !is_negation(first) {
         return false;
     }
+    let about_it = !AUXILIARIES.contains(first) || words.iter().any(|word| RIGHT.contains(word));
     words.iter().take(MAX_WORDS).enumerate().any(|(i, word)| {
         let next = words.get(i + 1).copied().unwrap_or("");
         WRONG.contains(word)
-            || is_negation(word) && !HARMLESS.contains(&next)
+            || about_it && is_negation(word) && !HARMLESS.contains(&next)
             || *word == "too"
                 && matches!(
                     next,

@@ -160,14 +160,20 @@ pub(in crate::verify) fn other_numbers(text: &str, languages: Languages) -> usiz
     let chars = characters(text);
     let chars = Chars(&chars);
     let all = quantities(chars);
-    let is_plain =
-        read_quote_in(text, languages).is_ok_and(|r| !matches!(r.read.form, NumberForm::Range(..)));
-    if !is_plain || last_equals(chars, &all).is_some() || (0..chars.0.len()).any(|i| chars.at(i) == Some('='))
+    let Ok(reading) = read_quote_in(text, languages) else { return 0 };
+    let is_range = matches!(reading.read.form, NumberForm::Range(..));
+    if is_range || last_equals(chars, &all).is_some() || (0..chars.0.len()).any(|i| chars.at(i) == Some('='))
     {
         return 0;
     }
-    let all = all.iter().filter(|q| !q.unit.as_ref().is_some_and(|unit| unit.link == Link::Clause));
-    all.count().saturating_sub(1)
+    // Example: `0.526 mrad at 0.8 kg`: a number of another dimension is a setting.
+    let dimension = |unit: &Option<Unit>| unit.as_ref().and_then(|unit| unit.dimension);
+    let is_setting = |q: &&Quantity| match (dimension(&q.unit), dimension(&reading.unit)) {
+        (Some(other), Some(read)) => !other.agrees(&read),
+        _ => false,
+    };
+    let is_shared = |q: &&Quantity| q.unit.as_ref().is_some_and(|unit| unit.link == Link::Clause);
+    all.iter().filter(|q| !is_shared(q) && !is_setting(q)).count().saturating_sub(1)
 }
 
 /// The parts of a text that state one number each, in order. A range is one part, unless its two ends give the `expected`
