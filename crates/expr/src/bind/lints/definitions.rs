@@ -1,11 +1,9 @@
 //! The constants that a text declares, and declarations that hide a variable.
 
 use super::pass::LintPass;
-use crate::ast::{Body, Declarator, Expr, ExprKind, Name, Pattern, Stmt, StmtKind};
-use crate::bind::source::SourceTree;
+use crate::ast::{Declarator, Expr, ExprKind, Name, Pattern, Stmt, StmtKind};
 use crate::rules;
 use labspec_finding::{Finding, Span};
-use std::collections::BTreeMap;
 
 /// The limit on constants that are defined by other constants.
 const MAX_HOPS: usize = 8;
