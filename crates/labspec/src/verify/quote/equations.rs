@@ -1,6 +1,5 @@
 //! The TeX of displayed equations: environments that align several lines, and units that are written as a fraction.
 
-use super::fold;
 use crate::markdown::tex;
 use labspec_bind::units;
 
@@ -63,8 +62,12 @@ fn line_end(text: &str) -> Option<&str> {
     text.get(text.len() - rest.len() - distance.len() + close + 1..)
 }
 
-/// The text after `\frac{\mathrm{m}}{\mathrm{s}}` at the beginning of `text`, and the unit that it states: `m/s`.
-pub(super) fn fraction_of_units(text: &str) -> Option<(&str, String)> {
+/// The text after `\frac{\mathrm{m}}{\mathrm{s}}` at the beginning of `text`, and the unit that it states: `m/s`. `fold` normalizes
+/// the text of an argument.
+pub(super) fn fraction_of_units<'t>(
+    text: &'t str,
+    fold: &dyn Fn(&str) -> String,
+) -> Option<(&'t str, String)> {
     let (rest, name) = tex::command(text).ok()?;
     if !FRACTIONS.contains(&name) {
         return None;
@@ -77,7 +80,7 @@ pub(super) fn fraction_of_units(text: &str) -> Option<(&str, String)> {
     {
         return None;
     }
-    let plain = |tex: &str| fold::fold(tex, true).0.trim().to_string();
+    let plain = |tex: &str| fold(tex).trim().to_string();
     let whole =
         |unit: String| if unit.chars().all(char::is_alphanumeric) { unit } else { format!("({unit})") };
     let (above, below) = (plain(above), plain(below));

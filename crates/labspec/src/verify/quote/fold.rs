@@ -30,7 +30,8 @@ pub(super) fn fold(text: &str, flat: bool) -> (String, SourceMap) {
             continue;
         }
         let c = rest.chars().next().unwrap_or(' ');
-        let whole = siunitx::quantity(rest).ok().or_else(|| equations::fraction_of_units(rest));
+        let unit = |tex: &str| fold(tex, true).0;
+        let whole = siunitx::quantity(rest).ok().or_else(|| equations::fraction_of_units(rest, &unit));
         if let Some((tail, rendered)) = whole {
             let end = text.len() - tail.len();
             out.whole(&rendered, offset..end);
