@@ -48,6 +48,7 @@ fn nearly_json() -> impl Strategy<Value = String> {
         ":",
         "\"a\"",
         "\"b\\n\"",
+        "\"<p>x=\"",
         "\"\\u00e9\"",
         "\"\\ud83d\"",
         "1",

@@ -184,16 +184,17 @@ impl JsonParser<'_> {
     }
 
     /// Whether the double quote at `offset`, in a text that begins at `from`, opens or closes the value of an attribute: the text
-    /// is XML that was pasted with its double quotes.
+    /// is XML that was pasted with its double quotes. A quote after which JSON continues, or the text ends, closes the text.
     fn is_of_attribute(&self, from: usize, offset: usize) -> bool {
-        let text = self.text;
-        let before = text.get(from..offset).unwrap_or("");
-        let behind = text.get(offset + 1..).unwrap_or("").trim_start();
-        before.starts_with('<')
-            && (before.ends_with('=')
-                || behind.starts_with('>')
-                || behind.starts_with("/>")
-                || begins_attribute(behind))
+        let before = self.text.get(from..offset).unwrap_or("");
+        let behind = self.text.get(offset + 1..).unwrap_or("").trim_start();
+        if !before.starts_with('<') || behind.is_empty() || behind.starts_with([',', ':', ']', '}']) {
+            return false;
+        }
+        before.ends_with('=')
+            || behind.starts_with('>')
+            || behind.starts_with("/>")
+            || begins_attribute(behind)
     }
 
     /// The end of a text without its closing quote, if the double quote at `offset` begins the next text.

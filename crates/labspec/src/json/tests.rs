@@ -40,6 +40,13 @@ fn errors_are_reported_and_parsing_continues() {
     for (text, message, place, read, repaired) in [
         (r#"{"a": 1 "b": 2}"#, "a comma is missing here", "", r#"{"a":1,"b":2}"#, r#"{"a": 1, "b": 2}"#),
         (r#"[1 {"b": 2}]"#, "a comma is missing here", "", r#"[1,{"b":2}]"#, r#"[1, {"b": 2}]"#),
+        (
+            r#"{"xml": "<a><b name="arm" pos="0 0 1"><c limited="true"/></b></a>", "n": 1}"#,
+            "a text contains 6 double quotes",
+            "\"",
+            r#"{"xml":"<a><b name=\"arm\" pos=\"0 0 1\"><c limited=\"true\"/></b></a>","n":1}"#,
+            r#"{"xml": "<a><b name=\"arm\" pos=\"0 0 1\"><c limited=\"true\"/></b></a>", "n": 1}"#,
+        ),
         (r#"{"a": 1,}"#, "a comma is before a closing bracket", ",", r#"{"a":1}"#, r#"{"a": 1}"#),
         (r#"[1, 2, ]"#, "a comma is before a closing bracket", ",", "[1,2]", "[1, 2 ]"),
         (r#"{"a": 1,, "b": 2}"#, "there is an extra comma", ",", r#"{"a":1,"b":2}"#, r#"{"a": 1, "b": 2}"#),

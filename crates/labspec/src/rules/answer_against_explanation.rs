@@ -102,9 +102,9 @@ fn check_question(question: &Question, findings: &mut Vec<Finding>) {
         }
     };
     let slipped = results.iter().find_map(|n| Some((*n, slip_of(n)?)));
-    // No number of the explanation is the answer: its last result in the unit of the answer is another one.
-    let last = results.last().filter(|n| in_its_unit(n) && (n.value - key).abs() > tolerance);
-    let Some((n, why)) = slipped.or(last.map(|n| (*n, "no number in the explanation is the answer"))) else {
+    // The only number in the unit of the answer is another one. Several may be steps towards it.
+    let other = results.iter().find(|n| only && in_its_unit(n) && (n.value - key).abs() > tolerance);
+    let Some((n, why)) = slipped.or(other.map(|n| (*n, "no number in the explanation is the answer"))) else {
         return;
     };
     let printed = html.get(n.span.clone()).unwrap_or("");

@@ -1,6 +1,6 @@
 use crate::check::assignments::{Assignment, assignments};
 use crate::spec::Lab;
-use labspec_core::Model;
+use labspec_core::{Model, biastype, dyntype};
 use labspec_expr::ast::BinaryOp;
 use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
@@ -22,11 +22,9 @@ const FIELDS: [&str; 2] = ["qfrc_applied", "xfrc_applied"];
 pub(crate) fn check_controller(lab: &Lab, model: &Model, findings: &mut Vec<Finding>) {
     let Some(controller) = &lab.controller else { return };
     let all = assignments(controller);
+    let has_motors = model.actuator_biastype.iter().all(|kind| *kind == biastype::NONE)
+        && model.actuator_dyntype.iter().all(|kind| *kind == dyntype::NONE);
     let field_of = |a: &Assignment| {
-        let is_motor = |i: usize| {
-            model.actuator_biastype.get(i) == Some(&0) && model.actuator_dyntype.get(i) == Some(&0)
-        };
-        let has_motors = (0..model.actuator_biastype.len()).all(is_motor);
         let of_motor = a.target.contains(".ctrl[") && has_motors && !a.value.contains("timestep");
         let name = FIELDS.into_iter().find(|name| a.target.contains(name));
         name.or(if of_motor { Some(".ctrl") } else { None })

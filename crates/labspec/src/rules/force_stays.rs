@@ -34,7 +34,7 @@ pub(crate) fn check_buttons(lab: &Lab, programs: &Programs, findings: &mut Vec<F
         let forces = applied(bound);
         if forces.is_empty()
             || words.iter().any(|word| LASTING.contains(&word.as_str()))
-            || others(programs, index).any(|other| applied(other).iter().any(|a| forces.contains(&a.field)))
+            || others(programs, index).flat_map(applied).any(|a| forces.iter().any(|b| a.field == b.field))
         {
             continue;
         }
@@ -71,25 +71,7 @@ fn others(programs: &Programs, index: usize) -> impl Iterator<Item = &Bound> {
 }
 
 /// The elements of applied forces that a program writes.
-fn applied(bound: &Bound) -> AppliedFields {
+fn applied(bound: &Bound) -> Vec<Access> {
     let fields = [data::qfrc_applied, data::xfrc_applied].map(|f| f.index() as u32);
-    let writes = bound.program.own_writes();
-    AppliedFields(writes.into_iter().filter(|a| fields.contains(&a.field.0)).collect())
-}
-
-/// Writes of applied forces.
-struct AppliedFields(Vec<Access>);
-
-impl AppliedFields {
-    fn is_empty(&self) -> bool {
-        self.0.is_empty()
-    }
-
-    fn iter(&self) -> impl Iterator<Item = &Access> {
-        self.0.iter()
-    }
-
-    fn contains(&self, field: &labspec_expr::FieldKey) -> bool {
-        self.0.iter().any(|a| a.field == *field)
-    }
+    bound.program.own_writes().into_iter().filter(|write| fields.contains(&write.field.0)).collect()
 }

@@ -13,7 +13,7 @@ pub const LABEL_AXIS: &Rule = &Rule {
     exceptions: &[],
     layer: Layer::Program,
     summary: "a label names a direction, but its expression reads a coordinate of another direction",
-    why: "the coordinates of a body are x, y, z in this order, z up: a wrong index shows a height that never changes. The rule reports expressions that read one coordinate",
+    why: "the coordinates of a body are x, y, z in this order, z up: with a wrong index, a student watches another motion than the label says. The rule reports expressions that read one coordinate",
     bad: Example::Lab(
         r#"{"xml": "<mujoco><worldbody><body name='ball' pos='0 0 1'><freejoint/><geom size='.05'/></body></worldbody></mujoco>", "setup": "data.qvel[1] = 1", "readouts": [{"label": "⟦height (m)⟧", "expr": "data.qpos[1]"}]}"#,
     ),
@@ -23,7 +23,7 @@ pub const LABEL_AXIS: &Rule = &Rule {
 };
 
 /// Words for the direction of gravity. The vocabulary is that of the languages in which lessons are written.
-const VERTICAL: [&str; 12] = [
+const VERTICAL: [&str; 11] = [
     "height",
     "altitude",
     "elevation",
@@ -35,7 +35,6 @@ const VERTICAL: [&str; 12] = [
     "verticale",
     "altura",
     "altezza",
-    "verticale",
 ];
 const HORIZONTAL: [&str; 6] =
     ["horizontal", "horizontale", "waagrecht", "waagrechte", "orizzontale", "sideways"];
@@ -151,4 +150,51 @@ fn named_direction(label: &Text, model: &Model) -> Option<NamedDirection> {
     let (Some((place, named)), None) = (found.next(), found.next()) else { return None };
     let others_belong = words.iter().enumerate().all(|(i, w)| i == place || belongs(w) || w == "v");
     others_belong.then_some(named)
+}
+
+#[cfg(test)]
+mod tests {
+    /// Whether a readout of a ball and of a cart on rails along x is reported.
+    fn is_reported(option: &str, label: &str, expr: &str) -> bool {
+        let xml = format!(
+            "<mujoco><option {option}/><worldbody><body name='ball' pos='0 0 1'><freejoint/><geom size='.05'/></body>\
+             <body name='cart' pos='1 0 1'><joint type='slide' axis='1 0 0'/><geom size='.05'/></body></worldbody></mujoco>"
+        );
+        let lab =
+            serde_json::json!({"xml": xml, "stopAt": 0.1, "readouts": [{"label": label, "expr": expr}]})
+                .to_string();
+        let report = crate::Checker::new(|_: &str| None::<String>).check("lab.json", &lab);
+        report.findings.iter().any(|f| f.code == "label-axis")
+    }
+
+    #[test]
+    fn a_direction_is_that_of_the_coordinate() {
+        for (label, expr) in [
+            ("height (m)", "data.qpos[1]"),
+            ("Höhe (m)", "data.qpos[0]"),
+            ("height of the ball (m)", "data.body('ball').xpos[0]"),
+            ("z (m)", "data.qpos[1]"),
+            ("vx (m/s)", "data.qvel[2]"),
+            ("horizontal position (m)", "data.qpos[2]"),
+            ("height (m)", "data.qpos[7]"),
+        ] {
+            assert!(is_reported("", label, expr), "{label}: {expr}");
+        }
+        for (label, expr) in [
+            ("height (m)", "data.qpos[2]"),
+            ("height (m)", "data.qpos[2] - 0.05"),
+            ("height above the floor when it lands (m)", "data.qpos[1]"),
+            ("z of the ball (m)", "data.qpos[2]"),
+            ("x (m)", "data.qpos[7]"),
+            ("y (m)", "data.qpos[7]"),
+            ("height (m)", "Math.hypot(data.qpos[0], data.qpos[1])"),
+            ("vertical speed (m/s)", "data.qvel[2]"),
+            ("height (rad)", "data.qvel[3]"),
+        ] {
+            assert!(!is_reported("", label, expr), "{label}: {expr}");
+        }
+        // Up is against gravity; on a slope by tilted gravity, no axis is.
+        assert!(!is_reported("gravity='0 -9.81 0'", "height (m)", "data.qpos[1]"));
+        assert!(!is_reported("gravity='0 -4.9 -8.5'", "height (m)", "data.qpos[1]"));
+    }
 }

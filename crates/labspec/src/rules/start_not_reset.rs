@@ -1,4 +1,4 @@
-use crate::bind::{ControlProgram, Programs};
+use crate::bind::{Bound, ControlProgram, Programs, functions};
 use crate::check::setconst::digits;
 use crate::run::{Session, Start};
 use crate::spec::Lab;
@@ -33,9 +33,14 @@ fn may_move(program: &ControlProgram) -> bool {
         let effects = bound.program.effects();
         effects.writes_everything
             || effects.calls_values
-            || bound.text.as_str().contains("mj_")
+            || calls(bound, |name| name.starts_with("mj_"))
             || effects.writes.iter().any(|access| access.field.0 as usize == data::qpos.index())
     })
+}
+
+/// Whether a program calls a function of the engine with such a name.
+fn calls(bound: &Bound, is_meant: impl Fn(&str) -> bool) -> bool {
+    bound.program.effects().calls.iter().filter_map(|f| functions::name(*f)).any(is_meant)
 }
 
 /// Compares the state after loading with that after a reset. A lab whose resets differ among themselves draws its state at random.
@@ -60,10 +65,13 @@ pub(crate) fn check_start(lab: &Lab, model: &Model, programs: &Programs, finding
     }
     let [before, after] = [&start, &first].map(|list| digits(list.get(i).copied().unwrap_or(f64::NAN), 6));
     let message = format!("the lab starts with data.qpos[{i}] at {before}, and a reset puts it to {after}");
+    let of_model = session.world.model.qpos0.get(i).zip(start.get(i));
+    let is_of_model = of_model.is_some_and(|(x, y)| (x - y).abs() <= SAME);
     let setconst = lab.controls.iter().zip(&programs.controls).find_map(|(control, (_, program))| {
         let ControlProgram::Change(_, action) = program else { return None };
         let bound = action.run.as_ref()?;
-        bound.text.as_str().contains("mj_setConst").then_some((control, bound))
+        let is_cause = is_of_model && lab.key.is_some() && calls(bound, |name| name == "mj_setConst");
+        is_cause.then_some((control, bound))
     });
     let span = lab.key.as_ref().map_or(lab.span.clone(), |key| key.span.clone());
     let finding = Finding::new(START_NOT_RESET, span, message);

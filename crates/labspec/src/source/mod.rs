@@ -194,6 +194,11 @@ pub struct Text {
 }
 
 impl Text {
+    /// A text that the file does not contain in this form; the span of each part is `place`.
+    pub fn derived(value: String, place: Range<usize>) -> Text {
+        Text { map: SourceMap::whole(value.len(), place), value }
+    }
+
     /// The bytes of the file that contain this text (for a JSON string: without its quotes).
     pub fn span(&self) -> Range<usize> {
         self.map.span(0..self.value.len())

@@ -161,12 +161,6 @@ pub(super) fn read_key(fields: &mut Fields<'_, '_>, options: &[Text]) -> Option<
     };
     let named =
         |text: &Text| options.iter().position(|option| option.value == text.value).or_else(|| letter(text));
-    if let Json::Text(text) = &answer.json
-        && let Some(index) = named(text).filter(|_| !several)
-    {
-        fields.problems.push(Mistake::AnswerText(index).at(answer.span.clone()));
-        return None;
-    }
     let value = read_answer(answer, several, &named, fields)?;
     Some(AnswerKey { span: answer.span.clone(), value, hash_beside: hash.map(|node| node.span.clone()) })
 }
@@ -183,15 +177,7 @@ fn read_answer(
             wrong_key(fields.problems, node, "answer", Expected::List);
             return None;
         };
-        let mut index = |item: &Node| match &item.json {
-            Json::Text(text) if named(text).is_some() => {
-                let index = named(text)?;
-                fields.problems.push(Mistake::AnswerText(index).at(item.span.clone()));
-                None
-            }
-            _ => whole(item, "answer", fields.problems),
-        };
-        let all: Vec<Option<Number>> = items.iter().map(&mut index).collect();
+        let all: Vec<Option<Number>> = items.iter().map(|item| index(item, named, fields)).collect();
         return Some(KeyValue::Options(all.into_iter().collect::<Option<_>>()?));
     }
     if fields.takes_flag("answer") {
@@ -201,7 +187,18 @@ fn read_answer(
         };
         return Some(KeyValue::Truth(truth));
     }
-    whole(node, "answer", fields.problems).map(KeyValue::Option)
+    index(node, named, fields).map(KeyValue::Option)
+}
+
+/// The index of an option. Its text or its letter is reported, with the index: a text such as "2" may be that of another option.
+fn index(node: &Node, named: &dyn Fn(&Text) -> Option<usize>, fields: &mut Fields<'_, '_>) -> Option<Number> {
+    if let Json::Text(text) = &node.json
+        && let Some(index) = named(text)
+    {
+        fields.problems.push(Mistake::AnswerText(index).at(node.span.clone()));
+        return None;
+    }
+    whole(node, "answer", fields.problems)
 }
 
 fn read_hash(node: &Node, fields: &mut Fields<'_, '_>) -> Option<AnswerHash> {

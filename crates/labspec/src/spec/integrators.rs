@@ -9,7 +9,7 @@ use super::lab::{Comparison, Lab, Run, Verify};
 use super::plot::{Plot, Trace};
 use super::read;
 use crate::json::{Json, Number, Scalar};
-use crate::source::{SourceMap, Text};
+use crate::source::Text;
 use std::fmt::Write;
 use std::ops::Range;
 
@@ -59,7 +59,7 @@ pub(super) fn add_comparison(lab: Lab, mut comparison: Comparison) -> Lab {
 
 /// A text that the lesson does not contain, at a place of the lesson.
 fn added(value: &str, span: &Range<usize>) -> Text {
-    Text { value: value.to_string(), map: SourceMap::whole(value.len(), span.clone()) }
+    Text::derived(value.to_string(), span.clone())
 }
 
 /// The select that sets the integrator, and the timestep, after `setup` and the other controls. Its values are names, so

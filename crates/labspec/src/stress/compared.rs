@@ -3,7 +3,7 @@
 use super::watched_run;
 use crate::bind::Programs;
 use crate::run::{Breakdown, Cell, RunError, RunOptions, Table, final_values, rounded};
-use crate::source::{SourceMap, Text};
+use crate::source::Text;
 use crate::spec::{ENERGY_DRIFT, Lab, Plot, Readout, Trace};
 use labspec_core::Model;
 
@@ -111,7 +111,7 @@ fn joined_traces(plot: &Plot, runs: &[ComparedRun]) -> Vec<Trace> {
 }
 
 fn relabelled(label: &Text, value: &str) -> Text {
-    Text { value: value.to_string(), map: SourceMap::whole(value.len(), label.span()) }
+    Text::derived(value.to_string(), label.span())
 }
 
 fn join_tables(joined: &Lab, runs: &[ComparedRun]) -> Table {

@@ -25,9 +25,11 @@ pub fn check_verify(
     rendered: &RenderedText,
     findings: &mut Vec<Finding>,
 ) -> Judgement {
-    check_identical_runs(bound, findings);
     match run_all_numerics(bound, verify, findings) {
-        Some(outcomes) => judge(bound, &outcomes, verify, question, rendered, findings),
+        Some(outcomes) => {
+            check_identical_runs(bound, &outcomes.nominal, findings);
+            judge(bound, &outcomes, verify, question, rendered, findings)
+        }
         None => not_executable(verify, question, "a run cannot be made"),
     }
 }

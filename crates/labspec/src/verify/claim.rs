@@ -99,9 +99,7 @@ const MOST_NUMBERS: f64 = 100.0;
 
 /// An expression with a suffix; its span is that of the whole.
 pub(super) fn with_suffix(expr: &Text, suffix: &str) -> Text {
-    let value = format!("({}){suffix}", expr.value);
-    let map = SourceMap::whole(value.len(), expr.span());
-    Text { value, map }
+    Text::derived(format!("({}){suffix}", expr.value), expr.span())
 }
 
 impl CompiledClaim {

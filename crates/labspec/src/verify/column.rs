@@ -12,7 +12,7 @@ use super::units;
 use crate::finding::Finding;
 use crate::language::Languages;
 use crate::rules;
-use crate::source::{SourceMap, Text};
+use crate::source::Text;
 use crate::spec::{Column, Stands};
 use labspec_expr::Value;
 use labspec_expr::dimension::Dimension;
@@ -121,9 +121,7 @@ fn implied_values(checker: QuoteChecker<'_, '_>, is: &Stands) -> Option<Text> {
         return None;
     }
     let run = checker.bound.run_of_list(&part(expr, "[0]"))?;
-    let value = format!("{run}.{}", name_of_axis(0));
-    let map = SourceMap::whole(value.len(), expr.span());
-    Some(Text { value, map })
+    Some(Text::derived(format!("{run}.{}", name_of_axis(0)), expr.span()))
 }
 
 /// The members of a sweep that the rows of a table describe.

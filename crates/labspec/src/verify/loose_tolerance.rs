@@ -6,7 +6,7 @@ use super::option_numbers::{constant, is_below, magnitude};
 use super::outcome::MeasuredRuns;
 use crate::finding::Finding;
 use crate::rules;
-use crate::source::{SourceMap, Text};
+use crate::source::Text;
 use labspec_expr::ast::{BinaryOp, Expr, ExprKind, LogicalOp};
 use labspec_expr::{parse_expression, print};
 
@@ -23,8 +23,7 @@ pub(super) fn check_tolerance(
     findings: &mut Vec<Finding>,
 ) {
     let value = |e: &Expr| {
-        let value = print(e);
-        let text = Text { map: SourceMap::whole(value.len(), condition.span()), value };
+        let text = Text::derived(print(e), condition.span());
         let found = bound.find(outcome, &text, &mut Vec::new())?.value.to_number();
         Some(found).filter(|x| x.is_finite())
     };

@@ -41,8 +41,7 @@ pub(super) fn check_number(
         Ok(value) => value,
         Err(reason) => return Answer::failed(reason),
     };
-    // Without a unit beside the field, the student answers in the unit of the text.
-    let in_text = quote::asked_unit(question.q.as_str()).filter(|_| asked.is_none());
+    let in_text = unit_in_text(bound, &outcomes.nominal, text, question).filter(|_| asked.is_none());
     let asked = asked.as_ref().map(|unit| unit.as_str()).or(in_text.as_deref());
     let measured = asked.and_then(|_| units::of_claim(bound, &outcomes.nominal, text));
     let gives = measured.as_ref().map(written);
@@ -89,6 +88,19 @@ pub(super) fn check_number(
     let uncompared = unit == quote::AnswerUnit::Unknown && asked.is_some_and(quote::is_unit);
     let reason = if uncompared { UNIT_NOT_COMPARED.to_string() } else { String::new() };
     Answer { verdict: verdict_by(Some(value.evidence)), reason, weights }
+}
+
+/// The unit in which the text of a question asks: without a unit beside the field, the student answers in it. `None` for angles and
+/// pure numbers, of which a text may ask turns or things.
+fn unit_in_text(
+    bound: &BoundVerify<'_>,
+    outcome: &MeasuredRuns,
+    text: &Text,
+    question: &Question,
+) -> Option<String> {
+    let asked = quote::asked_unit(question.q.as_str())?;
+    let measured = units::of_claim(bound, outcome, text)?;
+    (!measured.has_angle() && !measured.is_number()).then_some(asked)
 }
 
 /// The value of the expression of a numeric answer. If there is none, the reason is returned and reported.

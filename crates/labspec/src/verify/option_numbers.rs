@@ -8,7 +8,7 @@ use super::quote::{OptionNumber, UnitMatch, conversion, hold, option_ratio, opti
 use super::units;
 use crate::finding::Finding;
 use crate::rules;
-use crate::source::{SourceMap, Text};
+use crate::source::Text;
 use labspec_expr::ast::{BinaryOp, Expr, ExprKind, LogicalOp, UnaryOp};
 use labspec_expr::{parse_expression, print};
 
@@ -74,10 +74,7 @@ fn contradiction(
     let widen = |x: f64, f: f64| if x > 0.0 { x * f } else { x / f };
     let stated =
         OptionNumber { low: widen(stated.low, 1.0 / slip), high: widen(stated.high, slip), ..stated };
-    let text = Text {
-        map: SourceMap::whole(required.quantity.len(), condition.span()),
-        value: required.quantity.clone(),
-    };
+    let text = Text::derived(required.quantity.clone(), condition.span());
     let found = units::of_claim(bound, outcome, &text)?;
     let expected = stated.unit.dimension?;
     if !found.agrees(&expected) {
@@ -118,7 +115,7 @@ fn contradicted_ratio(
 ) -> Option<String> {
     let [quantity, base] = required.ratio.as_ref()?;
     let stated = option_ratio(&option.value)?;
-    let text = Text { map: SourceMap::whole(quantity.len(), condition.span()), value: quantity.clone() };
+    let text = Text::derived(quantity.clone(), condition.span());
     let measured = units::of_claim(bound, outcome, &text);
     let mut may_be = stated.may_be.clone();
     if stated.names_another(measured.as_ref()) {

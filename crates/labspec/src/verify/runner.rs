@@ -16,6 +16,7 @@ use crate::spec::{Control, ControlKind};
 use labspec_core::reflect::{FieldId, option};
 use labspec_core::{AccessSet, Model, Plan, integrator};
 use labspec_expr::{Effects, Program, Value, Watch};
+use std::collections::BTreeMap;
 use std::ops::{ControlFlow, Range};
 
 /// Maximum number of steps of one run of a `verify` object.
@@ -70,48 +71,38 @@ pub(super) fn execute_run(
 /// The cache key: a text of everything that the result of a run depends on.
 fn key(request: &RunRequest<'_, '_>) -> String {
     let RunRequest { scene, run, numerics, measures, .. } = request;
-    let lab = &scene.scene.lab;
     let texts: Vec<&str> = measures.iter().map(|m| m.text.as_str()).collect();
-    let of_run = run.spec.map(|spec| {
-        let set: Vec<_> = spec.set.iter().map(|(label, v)| (label.as_str(), scalar(v))).collect();
-        let press: Vec<_> = spec.press.iter().map(|(label, t)| (label.as_str(), t.value)).collect();
-        let length = [&spec.until, &spec.steps].map(|n| n.as_ref().map(|n| n.value));
-        let code = [&spec.setup, &spec.stop].map(|t| t.as_ref().map(|t| t.as_str()));
-        format!("{set:?} {press:?} {length:?} {code:?}")
-    });
+    let set: Option<Vec<_>> =
+        run.spec.map(|spec| spec.set.iter().map(|(label, v)| (label.as_str(), scalar(v))).collect());
     // A search sets controls of the only run of an object without `runs`, too.
     let controls: Vec<_> = run.controls.iter().map(|(label, x)| (label.as_str(), x)).collect();
-    let labs = format!("{:?} {} {:?} {:?}", lab.span, scene.scene.model.identity(), lab.key, lab.controller);
-    format!("{labs} {of_run:?} {controls:?} {numerics:?} {texts:?}")
+    format!("{} {set:?} {controls:?} {numerics:?} {texts:?}", key_without_controls(scene, run))
 }
 
-/// A text of the settings of a run: equal for runs that are the same simulation. A control that a run does not set has its value.
-pub(super) fn settings_key(scene: &BoundScene<'_>, run: &BoundRun<'_>) -> String {
+/// The part of a key that is independent of controls, numerics and measures.
+fn key_without_controls(scene: &BoundScene<'_>, run: &BoundRun<'_>) -> String {
     let lab = &scene.scene.lab;
-    let set_by_run = run.spec.map_or(&[][..], |spec| &spec.set);
-    let value = |control: &Control| {
-        let set = set_by_run.iter().rev().find(|(label, _)| label.as_str() == control.label.as_str());
-        match (set, &control.kind) {
-            (Some((_, value)), _) => Some(format!("{:?}", scalar(value))),
-            (None, ControlKind::Slider { value, .. }) => Some(format!("{:?}", Value::Number(value.value))),
-            (None, ControlKind::Select { value, .. }) => Some(format!("{:?}", scalar(value))),
-            (None, _) => None,
-        }
-    };
-    let controls: Vec<Option<String>> = lab.controls.iter().map(value).collect();
-    let others: Vec<&str> = set_by_run
-        .iter()
-        .map(|(label, _)| label.as_str())
-        .filter(|label| !lab.controls.iter().any(|control| control.label.as_str() == *label))
-        .collect();
     let of_run = run.spec.map(|spec| {
         let press: Vec<_> = spec.press.iter().map(|(label, t)| (label.as_str(), t.value)).collect();
         let length = [&spec.until, &spec.steps].map(|n| n.as_ref().map(|n| n.value));
         let code = [&spec.setup, &spec.stop].map(|t| t.as_ref().map(|t| t.as_str()));
         format!("{press:?} {length:?} {code:?}")
     });
-    let labs = format!("{:?} {} {:?} {:?}", lab.span, scene.scene.model.identity(), lab.key, lab.controller);
-    format!("{labs} {of_run:?} {controls:?} {others:?}")
+    format!("{:?} {} {:?} {:?} {of_run:?}", lab.span, scene.scene.model.identity(), lab.key, lab.controller)
+}
+
+/// A text of the settings of a run, equal for runs with the same settings: a control that a run does not set has its start value.
+pub(super) fn settings_key(scene: &BoundScene<'_>, run: &BoundRun<'_>) -> String {
+    let start = |control: &Control| match &control.kind {
+        ControlKind::Slider { value, .. } => Some(Value::Number(value.value)),
+        ControlKind::Select { value, .. } => Some(scalar(value)),
+        ControlKind::Button { .. } => None,
+    };
+    let controls = &scene.scene.lab.controls;
+    let mut values: BTreeMap<&str, Value> =
+        controls.iter().filter_map(|control| Some((control.label.as_str(), start(control)?))).collect();
+    values.extend(run.spec.iter().flat_map(|spec| &spec.set).map(|(label, v)| (label.as_str(), scalar(v))));
+    format!("{} {values:?}", key_without_controls(scene, run))
 }
 
 /// A run after its setup, and the data for playing it.

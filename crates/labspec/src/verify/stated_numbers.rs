@@ -4,36 +4,68 @@
 
 use super::bound::BoundVerify;
 use super::format::significant;
-use super::option_numbers::is_below;
+use super::option_numbers::{constant, is_below, magnitude};
 use super::outcome::MeasuredRuns;
 use super::quote::{OptionNumber, conversion, option_ratio, quantities_in};
 use super::units;
+use crate::bind::given_by;
 use crate::finding::Finding;
 use crate::json::Scalar;
 use crate::rules;
-use crate::source::{SourceMap, Text};
+use crate::source::Text;
 use crate::spec::Question;
-use labspec_bind::units::written;
+use labspec_bind::units::{parse, written};
 use labspec_expr::ast::{BinaryOp, Expr, ExprKind, LogicalOp, UnaryOp};
 use labspec_expr::dimension::{Dimension, Measure};
 use labspec_expr::{parse_expression, print};
 
-/// The most measured values of which sums, differences and ratios are formed.
-const MAX_VALUES: usize = 60;
+/// The most values of one measure that are compared in pairs.
+const MAX_VALUES: usize = 20;
 /// Relative difference up to which a ratio in words is that of the simulation.
 const RATIO_TOLERANCE: f64 = 0.05;
 /// The most words of an option that states a ratio without naming a quantity.
 const MAX_BARE_WORDS: usize = 3;
 
-/// A measured value with its dimension.
+/// A value with its dimension.
 #[derive(Clone, Copy, Debug)]
-struct MeasuredQuantity {
+struct Measurement {
     value: f64,
     dimension: Dimension,
 }
 
-/// Reports true options, or a true statement, whose numbers are those of nothing that the question measures. `held`: which
-/// conditions hold. Returns the reason if there is one.
+impl Measurement {
+    /// The value in the unit of a stated number; `None` for another dimension.
+    fn in_unit_of(&self, stated: &OptionNumber) -> Option<f64> {
+        let expected = stated.unit.dimension.filter(|_| stated.unit.percentage().is_none())?;
+        Some(self.value * conversion(&expected, &self.dimension)?)
+    }
+}
+
+/// What a question measures, as far as its dimension is known.
+struct Measurements {
+    /// The terms that the condition compares.
+    compared: Vec<Measurement>,
+    /// The values of each measure, one for each run that belongs to no sweep.
+    measures: Vec<Vec<Measurement>>,
+}
+
+impl Measurements {
+    fn all(&self) -> impl Iterator<Item = &Measurement> {
+        self.compared.iter().chain(self.measures.iter().flatten())
+    }
+
+    /// All pairs of which a text may state the difference or the ratio: two terms of the condition, or one measure in two runs.
+    fn pairs(&self) -> impl Iterator<Item = (&Measurement, &Measurement)> {
+        let groups = self.measures.iter().chain([&self.compared]);
+        groups.flat_map(|group| {
+            let others = move |i: usize| group.iter().enumerate().filter(move |(k, _)| *k != i);
+            group.iter().enumerate().flat_map(move |(i, a)| others(i).map(move |(_, b)| (a, b)))
+        })
+    }
+}
+
+/// Reports true options, or a true statement, whose numbers are those of nothing that the question measures. Each comes with its
+/// condition, which holds. Returns the reason if there is one.
 pub(super) fn check_stated_numbers(
     bound: &BoundVerify<'_>,
     outcome: &MeasuredRuns,
@@ -55,6 +87,8 @@ pub(super) fn check_stated_numbers(
     reason
 }
 
+/// The contradiction between a text and what its condition compares; `None` if there is none, or if the dimension of a compared
+/// term is not known.
 fn contradiction(
     bound: &BoundVerify<'_>,
     outcome: &MeasuredRuns,
@@ -62,133 +96,108 @@ fn contradiction(
     text: &Text,
     condition: &Text,
 ) -> Option<String> {
-    let compared = compared_values(bound, outcome, condition)?;
-    let all = measured_values(bound, outcome, &compared);
+    let compared = compared_terms(bound, outcome, condition)?;
+    let found = Measurements { compared, measures: measures(bound, outcome) };
     let stated = quantities_in(&text.value, bound.stage().languages());
-    let of = |q: &OptionNumber, measured: &MeasuredQuantity| {
-        let is_share = q.unit.percentage().is_some();
-        q.unit.dimension.filter(|_| !is_share).and_then(|expected| conversion(&expected, &measured.dimension))
+    let is_compared = |q: &&OptionNumber| found.compared.iter().any(|term| term.in_unit_of(q).is_some());
+    let about_it: Vec<&OptionNumber> = stated.iter().filter(is_compared).collect();
+    let Some(first) = about_it.first() else {
+        return wrong_unit(&stated, &found.compared).or_else(|| wrong_ratio(text, &found));
     };
-    let about_it: Vec<&OptionNumber> =
-        stated.iter().filter(|q| compared.iter().any(|measured| of(q, measured).is_some())).collect();
-    if about_it.is_empty() {
-        return wrong_unit(&stated, &compared).or_else(|| wrong_ratio(text, &compared, &all));
-    }
     let given = given_numbers(bound, question, text);
-    let agrees = |q: &OptionNumber| {
-        // A bound is one of what the condition compares first, not of any difference.
-        let is_bound = !(q.low.is_finite() && q.high.is_finite());
-        let measured = if is_bound { compared.get(..1).unwrap_or_default() } else { &all };
-        let measured = combinations(measured, |measured| of(q, measured)).into_iter();
-        let mut values = measured.flat_map(|x| if is_bound { [x, x] } else { [x, -x] });
-        values.any(|x| q.low <= x && x <= q.high) || given.iter().any(|x| is_number_of(q, *x))
-    };
-    if about_it.iter().any(|q| agrees(q)) {
+    if about_it.iter().any(|q| is_measured(q, &found) || given.iter().any(|number| number.is(q))) {
         return None;
     }
-    let q = about_it.first()?;
-    let nearest = compared.iter().find_map(|measured| Some(measured.value * of(q, measured)?))?;
-    Some(format!("the text says {}, but the condition compares {}", q.text, significant(nearest)))
+    let nearest = found.compared.iter().find_map(|term| term.in_unit_of(first))?;
+    Some(format!("the text says {}, but the condition compares {}", first.text, significant(nearest)))
 }
 
-/// Whether a given number is the one that a text states.
-fn is_number_of(q: &OptionNumber, x: f64) -> bool {
-    let middle = 0.5 * (q.low + q.high);
-    let stated = if middle.is_finite() { middle } else { q.low.max(-f64::MAX).max(q.high.min(f64::MAX)) };
-    (x.abs() - stated.abs()).abs() <= 1e-6 * x.abs()
+/// Whether a stated number is a measured one, or a difference or a sum of two. A bound is one of what the condition compares
+/// first.
+fn is_measured(stated: &OptionNumber, found: &Measurements) -> bool {
+    let agrees = |x: f64| stated.low <= x && x <= stated.high;
+    if !(stated.low.is_finite() && stated.high.is_finite()) {
+        return found.compared.first().and_then(|term| term.in_unit_of(stated)).is_some_and(agrees);
+    }
+    let either_sign = |x: f64| agrees(x) || agrees(-x);
+    let value = |term: &Measurement| term.in_unit_of(stated);
+    found.all().filter_map(value).any(either_sign)
+        || found.pairs().filter_map(|(a, b)| Some(value(a)? - value(b)?)).any(either_sign)
+        || found.compared.iter().filter_map(value).reduce(|a, b| a + b).is_some_and(either_sign)
 }
 
 /// A number that is that of the simulation, with a unit of another dimension.
-fn wrong_unit(stated: &[OptionNumber], compared: &[MeasuredQuantity]) -> Option<String> {
+fn wrong_unit(stated: &[OptionNumber], compared: &[Measurement]) -> Option<String> {
     let [q] = stated else { return None };
-    let differs =
-        q.unit.dimension.is_some_and(|d| compared.iter().all(|measured| !d.agrees(&measured.dimension)));
+    let differs = q.unit.dimension.is_some_and(|d| compared.iter().all(|term| !d.agrees(&term.dimension)));
     let scale = q.unit.percentage().unwrap_or(1.0);
-    let close = |measured: &&MeasuredQuantity| {
-        measured.value != 0.0 && q.low * scale <= measured.value && measured.value <= q.high * scale
+    let close = |term: &&Measurement| {
+        term.value != 0.0 && q.low * scale <= term.value && term.value <= q.high * scale
     };
-    let measured = compared.iter().find(close).filter(|_| differs)?;
+    let term = compared.iter().find(close).filter(|_| differs)?;
     Some(format!(
         "the text says {}, but the condition compares {} {}",
         q.text,
-        significant(measured.value),
-        written(&measured.dimension)
+        significant(term.value),
+        written(&term.dimension)
     ))
 }
 
 /// A ratio in words that is that of no two measured values.
-fn wrong_ratio(text: &Text, compared: &[MeasuredQuantity], all: &[MeasuredQuantity]) -> Option<String> {
+fn wrong_ratio(text: &Text, found: &Measurements) -> Option<String> {
     let stated = option_ratio(&text.value)?;
-    let is_named = |measured: &&MeasuredQuantity| stated.named.iter().any(|d| d.agrees(&measured.dimension));
     let is_bare = stated.named.is_empty() && text.value.split_whitespace().count() <= MAX_BARE_WORDS;
-    let about_it = match is_bare {
-        true => compared
-            .iter()
-            .find(|measured| !measured.dimension.is_number())
-            .or(all.iter().find(|measured| !measured.dimension.is_number())),
-        false => all.iter().find(is_named),
+    let is_named = |term: &Measurement| match is_bare {
+        true => !term.dimension.is_number(),
+        false => stated.named.iter().any(|d| d.agrees(&term.dimension)),
     };
-    let about_it = about_it?.dimension;
-    let same: Vec<f64> = all
-        .iter()
-        .filter(|measured| measured.dimension.agrees(&about_it))
-        .map(|measured| measured.value)
+    let about_it = found.all().find(|term| is_named(term))?.dimension;
+    let both = |(a, b): &(&Measurement, &Measurement)| {
+        a.dimension.agrees(&about_it) && b.dimension.agrees(&about_it)
+    };
+    let ratios: Vec<f64> = found
+        .pairs()
+        .filter(both)
+        .map(|(a, b)| (a.value / b.value).abs())
+        .filter(|x| x.is_finite())
         .collect();
-    let ratios: Vec<f64> = pairs(&same).map(|(a, b)| (a / b).abs()).filter(|x| x.is_finite()).collect();
-    let alone = compared
-        .iter()
-        .filter(|measured| measured.dimension.is_number())
-        .map(|measured| measured.value.abs());
+    // A condition may compare the ratio itself.
+    let compared =
+        found.compared.iter().filter(|term| term.dimension.is_number()).map(|term| term.value.abs());
     let close = |x: f64| stated.may_be.iter().any(|y| (x - y).abs() <= RATIO_TOLERANCE * y.abs());
     let nearest = ratios.iter().copied().find(|x| *x >= 1.0)?;
-    let none = !ratios.iter().copied().chain(alone).any(close);
+    let none = !ratios.iter().copied().chain(compared).any(close);
     none.then(|| format!("the text says {}, but the measured ratio is {}", stated.text, significant(nearest)))
 }
 
-/// All ordered pairs of different places of a list.
-fn pairs(list: &[f64]) -> impl Iterator<Item = (f64, f64)> {
-    list.iter().enumerate().flat_map(move |(i, a)| {
-        list.iter().enumerate().filter(move |(k, _)| *k != i).map(move |(_, b)| (*a, *b))
-    })
-}
-
-/// The values that a text may state: the measured ones, their differences and sums, in the unit that `factor` converts to.
-fn combinations(all: &[MeasuredQuantity], factor: impl Fn(&MeasuredQuantity) -> Option<f64>) -> Vec<f64> {
-    let converted: Vec<f64> =
-        all.iter().filter_map(|measured| Some(measured.value * factor(measured)?)).collect();
-    let combined: Vec<f64> = pairs(&converted).flat_map(|(a, b)| [a - b, a + b]).collect();
-    converted.into_iter().chain(combined).collect()
-}
-
-/// The values that a condition compares, as far as they are measured; `None` if the dimension of one is not known.
-fn compared_values(
+/// The terms that a condition compares; `None` if it is no comparison, or the dimension of a term is not known.
+fn compared_terms(
     bound: &BoundVerify<'_>,
     outcome: &MeasuredRuns,
     condition: &Text,
-) -> Option<Vec<MeasuredQuantity>> {
+) -> Option<Vec<Measurement>> {
     let mut texts = Vec::new();
-    compared_texts(&parse_expression(&condition.value).tree, &mut texts)?;
+    terms_of_condition(&parse_expression(&condition.value).tree, &mut texts)?;
     let mut all = Vec::new();
     for value in texts {
-        let text = Text { map: SourceMap::whole(value.len(), condition.span()), value };
-        let found = bound.find(outcome, &text, &mut Vec::new())?.value.to_number();
+        let text = Text::derived(value, condition.span());
+        let value = bound.find(outcome, &text, &mut Vec::new())?.value.to_number();
         let dimension = units::of_claim(bound, outcome, &text)?;
-        if found.is_finite() && dimension.is_exact() {
-            all.push(MeasuredQuantity { value: found, dimension });
+        if value.is_finite() && dimension.is_exact() {
+            all.push(Measurement { value, dimension });
         }
     }
     (!all.is_empty()).then_some(all)
 }
 
-/// The measured quantities of a condition: names, products and quotients with numbers, and what is subtracted from each other.
-/// `None` if the condition contains anything but comparisons.
-fn compared_texts(e: &Expr, texts: &mut Vec<String>) -> Option<()> {
+/// Appends the terms on both sides of each comparison. `None` if the condition contains anything but comparisons.
+fn terms_of_condition(e: &Expr, texts: &mut Vec<String>) -> Option<()> {
     match &e.kind {
         ExprKind::Logical { op: LogicalOp::And | LogicalOp::Or, left, right } => {
-            compared_texts(left, texts)?;
-            compared_texts(right, texts)
+            terms_of_condition(left, texts)?;
+            terms_of_condition(right, texts)
         }
-        ExprKind::Unary { op: UnaryOp::Not, operand } => compared_texts(operand, texts),
+        ExprKind::Unary { op: UnaryOp::Not, operand } => terms_of_condition(operand, texts),
         ExprKind::Binary { op, left, right } => {
             is_below(*op, false)?;
             terms(left, texts);
@@ -199,71 +208,96 @@ fn compared_texts(e: &Expr, texts: &mut Vec<String>) -> Option<()> {
     }
 }
 
-/// The terms of a sum that are not numbers.
+/// Appends the terms of a sum that are not numbers, without their constant factors.
 fn terms(e: &Expr, texts: &mut Vec<String>) {
+    if constant(e).is_some() {
+        return;
+    }
+    if let Some(inner) = magnitude(e) {
+        return terms(inner, texts);
+    }
     match &e.kind {
-        ExprKind::Number(_) => {}
         ExprKind::Binary { op: BinaryOp::Add | BinaryOp::Subtract, left, right } => {
             terms(left, texts);
             terms(right, texts);
         }
-        ExprKind::Binary { op: BinaryOp::Multiply, left, right } if is_number(left) || is_number(right) => {
+        ExprKind::Binary { op: BinaryOp::Multiply, left, right }
+            if constant(left).is_some() || constant(right).is_some() =>
+        {
             terms(left, texts);
             terms(right, texts);
         }
         ExprKind::Unary { op: UnaryOp::Minus, operand } => terms(operand, texts),
-        ExprKind::Call { callee, args, .. } if print(callee) == "abs" || print(callee) == "Math.abs" => {
-            args.iter().for_each(|arg| terms(arg, texts));
-        }
         _ => texts.push(print(e)),
     }
 }
 
-fn is_number(e: &Expr) -> bool {
-    match &e.kind {
-        ExprKind::Number(_) => true,
-        ExprKind::Unary { op: UnaryOp::Minus, operand } => is_number(operand),
-        _ => false,
+/// The values of each measure whose dimension is known. The many values of a sweep would agree with any number.
+fn measures(bound: &BoundVerify<'_>, outcome: &MeasuredRuns) -> Vec<Vec<Measurement>> {
+    let mut all: Vec<(&str, Vec<Measurement>)> = Vec::new();
+    let Some(units) = bound.units() else { return Vec::new() };
+    for (name, measure) in units.runs.iter().flatten() {
+        let Measure::Dimension(dimension) = measure else { continue };
+        if !dimension.is_exact() || all.iter().any(|(other, _)| other == name) {
+            continue;
+        }
+        let runs = outcome.runs.iter().filter(|run| run.swept.is_none());
+        let values = runs.flat_map(|run| &run.measures).filter(|(of_run, x)| of_run == name && x.is_finite());
+        let values = values.take(MAX_VALUES).map(|(_, x)| Measurement { value: *x, dimension: *dimension });
+        all.push((name, values.collect()));
+    }
+    all.into_iter().map(|(_, values)| values).collect()
+}
+
+/// A number that a text may repeat, with its dimension if that is known.
+struct GivenNumber {
+    value: f64,
+    dimension: Option<Dimension>,
+}
+
+impl GivenNumber {
+    /// Whether a text states this number, in any unit.
+    fn is(&self, stated: &OptionNumber) -> bool {
+        let number = match (stated.low.is_finite(), stated.high.is_finite()) {
+            (true, true) => 0.5 * (stated.low + stated.high),
+            (true, false) => stated.low,
+            _ => stated.high,
+        };
+        let factor = match self.dimension.zip(stated.unit.dimension) {
+            Some((of_setting, expected)) if of_setting.agrees(&expected) => {
+                expected.factor / of_setting.factor
+            }
+            Some(_) => return false,
+            None => 1.0,
+        };
+        ((self.value * factor).abs() - number.abs()).abs() <= 1e-6 * number.abs()
     }
 }
 
-/// The values of all measures of a known dimension, and those of the condition.
-fn measured_values(
-    bound: &BoundVerify<'_>,
-    outcome: &MeasuredRuns,
-    compared: &[MeasuredQuantity],
-) -> Vec<MeasuredQuantity> {
-    let dimension = |name: &str| {
-        let runs = &bound.units()?.runs;
-        let (_, measure) = runs.iter().flatten().find(|(of_run, _)| of_run == name)?;
-        match measure {
-            Measure::Dimension(d) if d.is_exact() => Some(*d),
-            _ => None,
-        }
-    };
-    let measures = outcome.runs.iter().flat_map(|run| &run.measures).filter(|(_, x)| x.is_finite());
-    let measured =
-        measures.filter_map(|(name, x)| Some(MeasuredQuantity { value: *x, dimension: dimension(name)? }));
-    compared.iter().copied().chain(measured).take(MAX_VALUES).collect()
-}
-
-/// Numbers that a text may repeat: those of the question and of the settings of the runs.
-fn given_numbers(bound: &BoundVerify<'_>, question: &Question, text: &Text) -> Vec<f64> {
+/// The numbers of the question and the settings of its runs.
+fn given_numbers(bound: &BoundVerify<'_>, question: &Question, text: &Text) -> Vec<GivenNumber> {
     let mut all = Vec::new();
     if question.q.span() != text.span() {
         let asked = quantities_in(&question.q.value, bound.stage().languages());
-        all.extend(asked.iter().map(|q| 0.5 * (q.low + q.high)));
+        let middle = |q: OptionNumber| (0.5 * (q.low + q.high), q.unit.dimension);
+        all.extend(asked.into_iter().map(middle).filter(|(x, _)| x.is_finite()));
     }
-    for run in bound.runs.iter().filter_map(|run| run.spec) {
-        all.extend(run.set.iter().filter_map(|(_, value)| match value {
-            Scalar::Number(x) => Some(x.value),
-            _ => None,
-        }));
-        all.extend(run.until.iter().map(|x| x.value));
-        all.extend(run.press.iter().map(|(_, time)| time.value));
+    let time = parse("s");
+    for (run, scene) in bound.runs_with_scenes() {
+        let Some(spec) = run.spec else { continue };
+        for (label, value) in &spec.set {
+            let Scalar::Number(x) = value else { continue };
+            let dimension =
+                scene.scene.lab.control(label.as_str()).and_then(|control| match given_by(control) {
+                    Measure::Dimension(d) => Some(d),
+                    _ => None,
+                });
+            all.push((x.value, dimension));
+        }
+        let times = spec.until.iter().chain(spec.press.iter().map(|(_, time)| time));
+        all.extend(times.map(|x| (x.value, time)));
     }
-    all.retain(|x| x.is_finite());
-    all
+    all.into_iter().map(|(value, dimension)| GivenNumber { value, dimension }).collect()
 }
 
 #[cfg(test)]

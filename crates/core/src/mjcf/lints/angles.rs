@@ -99,6 +99,11 @@ fn rounded_radians(x: f64) -> Option<f64> {
     (steps != 0.0 && steps.abs() <= MAX_STEPS && DECIMALS.into_iter().any(matches)).then_some(steps * STEP)
 }
 
+/// Whether a number is a multiple of 15 of at most 360: a usual angle in degrees, but many turns in radians.
+fn is_usual_in_degrees(x: f64) -> bool {
+    x % STEP == 0.0 && x.abs() <= 360.0
+}
+
 /// Reports a range of a joint that is written in degrees, although the model is in radians.
 fn degrees_in_range(tree: &ElementTree, node: &ElementNode, report: &mut Diagnostics) {
     let Some(range) = node.attribute("range").filter(|_| node.element.name == "joint" && turns(tree, node))
@@ -106,7 +111,7 @@ fn degrees_in_range(tree: &ElementTree, node: &ElementNode, report: &mut Diagnos
         return;
     };
     let Value::Reals(all) = &range.value else { return };
-    if !all.iter().all(|x| x % 5.0 == 0.0) || !all.iter().any(|x| x.abs() > LARGE_TARGET) {
+    if !all.iter().all(|x| is_usual_in_degrees(*x)) || all.iter().all(|x| *x == 0.0) {
         return;
     }
     let turns = all.iter().fold(0.0, |most: f64, x| most.max(x.abs())) / (2.0 * PI);
@@ -115,7 +120,7 @@ fn degrees_in_range(tree: &ElementTree, node: &ElementNode, report: &mut Diagnos
         .warning(
             rules::ANGLE_UNIT,
             range.span.clone(),
-            format!("`range` allows {} turns: it looks like degrees", digits(turns)),
+            format!("`range` reaches {} turns: it looks like degrees", digits(turns)),
         )
         .why("angles of this model are read in radians, because its `compiler` says `angle=\"radian\"`")
         .help(format!("write {meant}, which is the same range in radians"));
@@ -131,7 +136,7 @@ fn degrees_in_keys(tree: &ElementTree, m: &Model, report: &mut Diagnostics) {
         let looks_like_degrees = |j: usize| {
             let adr = usize::try_from(*m.jnt_qposadr.get(j)?).ok()?;
             let x = *m.key_qpos.get(k * m.nq + adr)?;
-            (x.abs() >= STEP && x % STEP == 0.0).then_some((j, x))
+            (x != 0.0 && is_usual_in_degrees(x)).then_some((j, x))
         };
         let Some((j, x)) = hinges.into_iter().find_map(looks_like_degrees) else { continue };
         let name = m.names.of_kind(Obj::Joint).get(j).map_or("", String::as_str);
@@ -202,7 +207,7 @@ fn gravity(tree: &ElementTree, m: &Model, report: &mut Diagnostics) {
     let up = x == 0.0 && y == 0.0 && earth(z) && z > 0.0;
     let sideways = z == 0.0 && ((x == 0.0 && earth(y)) || (y == 0.0 && earth(x)));
     let (message, help) = if up && !planes(m).any(|normal| normal[2] < 0.0) {
-        ("gravity pulls upward: z points up".to_owned(), "write a negative number".to_owned())
+        ("gravity pulls upward: z points up".to_owned(), format!("write `0 0 {}`", digits(-z)))
     } else if sideways && falls_along(m, [x, y, z]) {
         let axis = if x == 0.0 { "y" } else { "x" };
         let message = format!("gravity pulls along {axis}, along the floor: no plane stops what falls");

@@ -84,3 +84,69 @@ fn softened_constraints_get_the_stated_time_constant() {
     assert!(short.0 && !least.0 && !soft.0);
     assert!(least.1 != soft.1);
 }
+
+/// The codes of the findings about angles and gravity in a model with this option, body and actuator.
+fn angles(compiler: &str, option: &str, body: &str, rest: &str) -> Vec<&'static str> {
+    let xml = format!(
+        "<mujoco><compiler {compiler}/><option {option}/><worldbody><geom type='plane' size='1 1 1'/>\
+         <body pos='0 0 1'>{body}<geom size='.1' mass='1'/></body></worldbody>{rest}</mujoco>"
+    );
+    let report = check_xml(&xml, &NoFiles, None);
+    assert!(report.model.is_some(), "{xml}: {:?}", report.findings);
+    let all = report.findings.iter().map(|f| f.code);
+    all.filter(|code| ["mjcf-angle-unit", "mjcf-gravity"].contains(code)).collect()
+}
+
+/// Numbers that are a usual angle in the other unit are reported; small angles, many turns and slides are not.
+#[test]
+fn angles_in_the_other_unit_are_reported() {
+    let servo = |range: &str| {
+        format!("<actuator><position joint='j' kp='1' ctrlrange='{range}' forcerange='-1 1'/></actuator>")
+    };
+    let key = |qpos: &str| format!("<keyframe><key qpos='{qpos}'/></keyframe>");
+    for (compiler, joint, rest) in [
+        ("", "range='-1.57 1.57'", String::new()),
+        ("", "range='0 3.1416'", String::new()),
+        ("", "range='-0.785 0.785'", String::new()),
+        ("", "ref='1.5708'", String::new()),
+        ("angle='radian'", "range='-45 45'", String::new()),
+        ("angle='radian'", "range='0 180'", String::new()),
+        ("", "range='-90 90'", servo("-90 90")),
+        ("angle='radian'", "range='-1.5708 1.5708'", servo("-90 90")),
+        ("", "", key("45")),
+    ] {
+        let body = format!("<joint name='j' axis='0 1 0' {joint}/>");
+        assert_eq!(angles(compiler, "", &body, &rest), ["mjcf-angle-unit"], "{compiler} {joint} {rest}");
+    }
+    for (compiler, joint, rest) in [
+        ("", "range='-90 90'", servo("-1.57 1.57")),
+        ("", "range='-1.5 1.5'", String::new()),
+        ("", "range='-0.52 0.52'", String::new()),
+        ("", "range='-1 1' type='slide'", String::new()),
+        ("", "range='-1.57 1.57' type='slide'", String::new()),
+        ("angle='radian'", "range='-1.57 1.57'", String::new()),
+        ("angle='radian'", "range='0 100'", String::new()),
+        ("angle='radian'", "range='0 1000'", String::new()),
+        ("", "", key("0.785")),
+        ("", "type='slide'", key("45")),
+    ] {
+        let body = format!("<joint name='j' axis='0 1 0' {joint}/>");
+        assert_eq!(angles(compiler, "", &body, &rest), [""; 0], "{compiler} {joint} {rest}");
+    }
+    let turned = "<freejoint/><site euler='0 1.5708 0'/><site euler='0 90 0'/><site euler='0.5 0 0'/>";
+    assert_eq!(angles("", "", turned, ""), ["mjcf-angle-unit"]);
+}
+
+/// Gravity that pulls up or along the floor is reported; that of a slope, of the moon and of a scene without one is not.
+#[test]
+fn gravity_in_the_wrong_direction_is_reported() {
+    let gravity = |g: &str, body: &str| angles("", &format!("gravity='{g}'"), body, "");
+    for g in ["0 0 9.81", "0 0 9.8", "0 -9.81 0", "9.81 0 0"] {
+        assert_eq!(gravity(g, "<freejoint/>"), ["mjcf-gravity"], "{g}");
+    }
+    for g in ["0 0 -9.81", "0 0 -1.62", "0 0 0", "0 -4.9 -8.5", "0 0 0.1"] {
+        assert_eq!(gravity(g, "<freejoint/>"), [""; 0], "{g}");
+    }
+    // Nothing falls.
+    assert_eq!(gravity("0 -9.81 0", "<joint name='j' axis='1 0 0'/>"), [""; 0]);
+}

@@ -73,7 +73,7 @@ impl LintPass<'_> {
         );
     }
 
-    /// Warns about a loop that runs never: `for (let i = 0; i > n; i++)`.
+    /// Warns about a loop that never runs: `for (let i = 0; i > n; i++)`.
     #[inline(never)]
     pub(super) fn counted_away(&mut self, init: Option<&Stmt>, test: Option<&Expr>, update: Option<&Expr>) {
         let (Some(init), Some(test), Some(update)) = (init, test, update) else { return };
@@ -105,7 +105,7 @@ impl LintPass<'_> {
             test.span,
             "this loop does not count towards its end",
         )
-        .why(format!("`{name}` counts {word}: the loop runs never, or does not end"));
+        .why(format!("`{name}` counts {word}: the loop never runs, or does not end"));
         self.found.push(match away {
             true => report.help(format!("write `{meant}`")).guess(test.span, meant),
             false => {

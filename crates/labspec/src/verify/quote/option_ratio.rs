@@ -3,8 +3,8 @@
 use super::modifier::{WordList, last_word};
 use super::number::NumberForm;
 use super::numeral::Chars;
+use super::option_text::{SMALLER, plain_text};
 use super::quantity::quantities;
-use super::{fold, html};
 use crate::language::Languages;
 use labspec_bind::units;
 use labspec_expr::dimension::Dimension;
@@ -63,25 +63,6 @@ const FACTOR_WORDS: [(&str, f64); 23] = [
     ("ten times", 10.0),
 ];
 
-/// Comparatives of smaller quantities; every other comparative is one of larger quantities.
-pub(super) const SMALLER: [&str; 15] = [
-    "less",
-    "fewer",
-    "shorter",
-    "lower",
-    "smaller",
-    "slower",
-    "weaker",
-    "lighter",
-    "shallower",
-    "nearer",
-    "closer",
-    "earlier",
-    "sooner",
-    "narrower",
-    "softer",
-];
-
 /// Beginnings of verbs that state a decrease or an increase: `drops by a third` and `drops to a third` differ.
 const DECREASES: [&str; 8] = ["los", "drop", "fall", "decreas", "shrink", "reduc", "sink", "declin"];
 const INCREASES: [&str; 6] = ["gain", "grow", "rise", "increas", "climb", "add"];
@@ -134,9 +115,7 @@ fn split_words(text: &str) -> impl Iterator<Item = &str> {
 
 /// The only ratio that an option states; `None` where it states several, a bound, or other numbers.
 pub(in crate::verify) fn option_ratio(option: &str) -> Option<OptionRatio> {
-    let (rendered, _) = html::strip(option);
-    let (folded, _) = fold::fold(&rendered, false);
-    let folded = folded.replace("**", "").replace("__", "").to_lowercase();
+    let folded = plain_text(option).to_lowercase();
     let chars: Vec<char> = folded.chars().take(2000).collect();
     let chars = Chars(&chars);
     // Example: `two and a half times`.

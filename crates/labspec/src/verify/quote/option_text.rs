@@ -4,7 +4,6 @@ use super::context::BOUND;
 use super::modifier::{WordList, ends_with, last_word};
 use super::number::{NumberForm, Quoted};
 use super::numeral::Chars;
-use super::option_ratio::SMALLER;
 use super::quantity::{Quantity, quantities};
 use super::unit_text::Unit;
 use super::{fold, html};
@@ -46,13 +45,35 @@ const ELSE: [&str; 14] = [
     "first",
 ];
 
+/// Comparatives of smaller quantities; every other comparative is one of larger quantities.
+pub(super) const SMALLER: [&str; 15] = [
+    "less",
+    "fewer",
+    "shorter",
+    "lower",
+    "smaller",
+    "slower",
+    "weaker",
+    "lighter",
+    "shallower",
+    "nearer",
+    "closer",
+    "earlier",
+    "sooner",
+    "narrower",
+    "softer",
+];
+
+/// The text of an option without markup. Markers of bold and italic text are not products.
+pub(super) fn plain_text(option: &str) -> String {
+    let (rendered, _) = html::strip(option);
+    fold::fold(&rendered, false).0.replace("**", "").replace("__", "")
+}
+
 /// The only quantity with a unit that an option states; `None` where it states several, or where its words give the number
 /// another meaning.
 pub(in crate::verify) fn option_text(option: &str, languages: Languages) -> Option<OptionNumber> {
-    let (rendered, _) = html::strip(option);
-    let (folded, _) = fold::fold(&rendered, false);
-    // Markers of bold and italic text are not products.
-    let folded = spelled(&folded.replace("**", "").replace("__", ""));
+    let folded = spelled(&plain_text(option));
     let chars: Vec<char> = folded.chars().take(2000).collect();
     let chars = Chars(&chars);
     let all = quantities(chars);
@@ -78,9 +99,7 @@ pub(in crate::verify) fn option_text(option: &str, languages: Languages) -> Opti
 /// All quantities with a unit of their own that a text states, each with the range of values that agree with it. Numbers that
 /// belong to another expression are left out.
 pub(in crate::verify) fn quantities_in(text: &str, languages: Languages) -> Vec<OptionNumber> {
-    let (rendered, _) = html::strip(text);
-    let (folded, _) = fold::fold(&rendered, false);
-    let folded = spelled(&folded.replace("**", "").replace("__", ""));
+    let folded = spelled(&plain_text(text));
     let chars: Vec<char> = folded.chars().take(2000).collect();
     let chars = Chars(&chars);
     let stated = |q: &Quantity| {
