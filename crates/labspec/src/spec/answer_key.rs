@@ -248,4 +248,30 @@ mod tests {
             assert_eq!(key(KeyValue::Hash(hash(salt, digits))).right_options(3, true), None);
         }
     }
+
+    /// The fixes of a question of this kind with the options 1, 2 and 3.
+    fn fixes(kind: &str, answer: serde_json::Value) -> Vec<(String, String)> {
+        let question = serde_json::json!({"kind": kind, "q": "How often?", "options": ["1", "2", "3"], "answer": answer});
+        let quiz = serde_json::json!({"id": "q", "questions": [question]}).to_string();
+        let report = crate::Checker::new(|_: &str| None::<String>).check("q.json", &quiz);
+        let of_answer = report.findings.iter().filter(|f| f.message.starts_with("`answer`"));
+        of_answer.map(|f| (f.message.clone(), f.help.clone().unwrap_or_default())).collect()
+    }
+
+    /// A text that names an option is never taken for an index: "2" is the option 1.
+    #[test]
+    fn texts_of_options_are_no_indexes() {
+        let index = |i: &str| {
+            (
+                "`answer` must be the index of an option, not its text or its letter".to_string(),
+                format!("write {i}, the index of this option"),
+            )
+        };
+        assert_eq!(fixes("multiple", serde_json::json!(["1", "2"])), [index("0"), index("1")]);
+        assert_eq!(fixes("multiple", serde_json::json!(["B", 0])), [index("1")]);
+        assert_eq!(fixes("mcq", serde_json::json!("2")), [index("1")]);
+        assert_eq!(fixes("mcq", serde_json::json!("C")), [index("2")]);
+        assert_eq!(fixes("multiple", serde_json::json!(["7"])).len(), 1);
+        assert!(!fixes("multiple", serde_json::json!(["7"])).contains(&index("7")));
+    }
 }

@@ -443,3 +443,41 @@ impl ClosedFormRuns<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    /// The codes of the findings about a closed form of a trace of a ball that falls from 1 m for 0.3 s.
+    fn codes(trace: &str, form: &str, tol: f64) -> Vec<&'static str> {
+        let lab = serde_json::json!({"stopAt": 0.3,
+            "xml": "<mujoco><worldbody><body pos='0 0 1'><freejoint/><geom size='.05' mass='2'/></body></worldbody></mujoco>",
+            "plots": [{"window": 0.3, "traces": [{"label": "trace", "expr": trace}]}],
+            "verify": {"exact": {"trace": {"is": form, "tol": tol}}}})
+        .to_string();
+        let report = crate::Checker::new(|_: &str| None::<String>).check("lab.json", &lab);
+        report.findings.iter().map(|f| f.code).filter(|code| code.starts_with("closed-form")).collect()
+    }
+
+    #[test]
+    fn a_tolerance_tells_curves_apart() {
+        let (height, law) = ("data.qpos[2]", "1 - 4.905 * data.time ** 2");
+        for (form, tol, expected) in [
+            (law, 0.01, None),
+            (law, 0.1, None),
+            // The ball falls by 0.44 m.
+            (law, 0.2, Some("closed-form-undecided")),
+            ("0.8", 0.3, None),
+            ("0.8", 0.6, Some("closed-form-undecided")),
+            ("1 - 4 * data.time ** 2", 0.05, Some("closed-form-wrong")),
+        ] {
+            assert_eq!(codes(height, form, tol), Vec::from_iter(expected), "{form} {tol}");
+        }
+    }
+
+    #[test]
+    fn a_trace_that_reads_nothing_is_no_evidence() {
+        let form = "1 - 3 * data.time ** 2";
+        for trace in [form, "model.body_mass[1] * 0.5 - 3 * data.time ** 2"] {
+            assert_eq!(codes(trace, form, 0.01), ["closed-form-untried"], "{trace}");
+        }
+    }
+}
