@@ -2,7 +2,7 @@ use crate::check::observations::{ObservedLab, column, constant};
 use crate::spec::Readout;
 use labspec_bind::element_owner;
 use labspec_core::reflect::{FieldId, data, model, option};
-use labspec_core::{Obj, enable};
+use labspec_core::{Model, Obj, enable};
 use labspec_expr::{Access, Effects};
 use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
@@ -60,12 +60,7 @@ pub(crate) fn check_still_readout(
         let help = "write `<option><flag energy=\"enable\"/></option>` in the model, or read `lib.energy()`";
         ("`data.energy` is 0 while the flag `energy` is off", help)
     } else {
-        let of_world = |a: &Access| {
-            FIXED_FIELDS.iter().any(|f| is(a, *f))
-                && a.count
-                    .is_some_and(|n| element_owner(&ready.model, a.field, a.first, n) == Some((Obj::Body, 0)))
-        };
-        if !effects.reads.iter().all(of_world) || names_it(readout.label.as_str(), effects) {
+        if !reads_fixed_elements(effects, &ready.model) || names_it(readout.label.as_str(), effects) {
             return None;
         }
         let help = "read the body that the label names, as `data.body('name').xpos[2]`";
@@ -73,6 +68,15 @@ pub(crate) fn check_still_readout(
     };
     let message = format!("this readout is always {value}");
     Some(Finding::warning(CONSTANT_READOUT, readout.expr.span(), message).why(what).help(help))
+}
+
+/// Whether a program reads elements of the world body that never change, and nothing else.
+pub(super) fn reads_fixed_elements(effects: &Effects, model: &Model) -> bool {
+    let is_fixed = |a: &Access| {
+        let of_world = |n| element_owner(model, a.field, a.first, n) == Some((Obj::Body, 0));
+        FIXED_FIELDS.iter().any(|f| is(a, *f)) && a.count.is_some_and(of_world)
+    };
+    reads_only_fields(effects) && effects.reads.iter().all(is_fixed)
 }
 
 fn is(access: &Access, field: FieldId) -> bool {

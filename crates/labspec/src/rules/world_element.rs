@@ -1,3 +1,4 @@
+use super::constant_readout::reads_fixed_elements;
 use crate::bind::{Bound, Programs};
 use crate::printable::counted;
 use labspec_core::reflect::FieldId;
@@ -41,6 +42,10 @@ pub(crate) fn check_elements(model: &Model, programs: &Programs, findings: &mut 
     }
     for bound in programs.bound() {
         let effects = bound.program.effects();
+        // A display that reads nothing else is constant, and reported as that.
+        if reads_fixed_elements(effects, model) {
+            continue;
+        }
         let writes = bound.program.own_writes();
         let used = effects.reads.iter().chain(&writes).find_map(|access| world_element(access, model));
         if let Some((field, index)) = used

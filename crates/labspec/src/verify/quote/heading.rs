@@ -41,7 +41,7 @@ pub(in crate::verify) fn operation_in_heading(head: &str) -> Option<String> {
     let head = rendered(head);
     let lower = head.to_lowercase();
     let mut words = lower.split(|c: char| !c.is_alphabetic()).skip(1);
-    if words.any(|word| SCALES.iter().any(|scale| scale.split(' ').next() == Some(word))) {
+    if words.any(|word| SCALES.contains(&word)) {
         return Some(head);
     }
     let label = without_unit(&head).trim();
