@@ -3,7 +3,7 @@
 use super::lints;
 use super::names::{self, NameContext};
 use super::source::SourceTree;
-use super::types::{self, BindContext};
+use super::types::{self, BindContext, TypedText};
 use crate::globals::{Globals, ProgramId};
 use crate::parse::{self, Parsed, in_order};
 use crate::program::Program;
@@ -21,7 +21,11 @@ pub struct Compiler<'s> {
     value: Option<Type>,
     explains: bool,
     tells: bool,
+    lint: Option<Lint>,
 }
+
+/// The pass of the lints. A compiler holds it only if it was asked for, so that a module which never asks does not contain it.
+type Lint = fn(&dyn Schema, &str, SourceTree<'_>, &TypedText) -> Vec<Finding>;
 
 /// The result of compiling one text.
 #[derive(Clone, Debug)]
@@ -59,9 +63,10 @@ impl Compiled {
 }
 
 impl<'s> Compiler<'s> {
-    /// A compiler for source texts that refer to names of `schema` and share the variables `globals`.
+    /// A compiler for source texts that refer to names of `schema` and share the variables `globals`. It reports errors, and
+    /// the warnings that come with binding names and types.
     pub fn new(schema: &'s dyn Schema, globals: &'s mut Globals) -> Compiler<'s> {
-        Compiler { schema, globals, value: None, explains: false, tells: false }
+        Compiler { schema, globals, value: None, explains: false, tells: false, lint: None }
     }
 
     /// A compiler for programs of a control with a `value` of this type, or `None` where no control supplies a value.
@@ -73,6 +78,11 @@ impl<'s> Compiler<'s> {
     /// itself.
     pub fn explaining(self) -> Compiler<'s> {
         Compiler { explains: true, ..self }
+    }
+
+    /// A compiler that also reports code that is allowed but rarely intended. No such warning prevents a program.
+    pub fn linting(self) -> Compiler<'s> {
+        Compiler { lint: Some(lints::lint), ..self }
     }
 
     /// A compiler for a host that reports typographic quotes itself: a text with such quotes gives no program and no
@@ -140,7 +150,9 @@ impl<'s> Compiler<'s> {
             explains: self.explains,
         };
         let bound = types::bind(&mut context, source, tree, &names, id);
-        found.extend(lints::lint(self.schema, source, tree, &bound.typed));
+        if let Some(lint) = self.lint {
+            found.extend(lint(self.schema, source, tree, &bound.typed));
+        }
         found.extend(bound.found);
         // An unresolved name without an error would silently remove code from the program.
         if let Some(span) = bound.unresolved.filter(|_| !found.iter().any(Finding::is_error)) {

@@ -31,17 +31,17 @@ fn render(source: &str, found: &[Finding]) -> String {
 
 fn expression(source: &str) -> String {
     let mut globals = Globals::new();
-    render(source, &Compiler::new(&Mock, &mut globals).expression(source).diagnostics)
+    render(source, &Compiler::new(&Mock, &mut globals).linting().expression(source).diagnostics)
 }
 
 fn statements(source: &str) -> String {
     let mut globals = Globals::new();
-    render(source, &Compiler::new(&Mock, &mut globals).statements(source).diagnostics)
+    render(source, &Compiler::new(&Mock, &mut globals).linting().statements(source).diagnostics)
 }
 
 fn target(source: &str) -> String {
     let mut globals = Globals::new();
-    render(source, &Compiler::new(&Mock, &mut globals).assignment(source).diagnostics)
+    render(source, &Compiler::new(&Mock, &mut globals).linting().assignment(source).diagnostics)
 }
 
 /// One snapshot per mistake.
@@ -263,7 +263,7 @@ mistakes! {
 fn variables_that_nothing_stores() {
     let mut globals = Globals::new();
     globals.define("angle");
-    let mut compiler = Compiler::new(&Mock, &mut globals);
+    let mut compiler = Compiler::new(&Mock, &mut globals).linting();
     compiler.statements("ctx.peak = Math.max(ctx.peak || 0, data.qpos[2])");
     let source = "ctx.peek + ctx.angle + ctx.start";
     compiler.expression(source);

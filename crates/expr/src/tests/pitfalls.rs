@@ -6,7 +6,7 @@ use crate::*;
 /// The rules and the fixes that a text of statements violates.
 fn found(source: &str) -> Vec<(&'static str, String)> {
     let mut globals = Globals::new();
-    let found = Compiler::new(&Mock, &mut globals).statements(source).diagnostics;
+    let found = Compiler::new(&Mock, &mut globals).linting().statements(source).diagnostics;
     let fixed = |f: &Finding| {
         let fix = f.fix.as_ref()?;
         Some(format!("{}{}{}", source.get(..fix.span.start)?, fix.text, source.get(fix.span.end..)?))
@@ -231,7 +231,7 @@ fn habits_of_python() {
     let fixed = |source: &str| {
         let mut globals = Globals::new();
         let mut text = source.to_owned();
-        let all = Compiler::new(&Mock, &mut globals).statements(source).diagnostics;
+        let all = Compiler::new(&Mock, &mut globals).linting().statements(source).diagnostics;
         for fix in all.iter().rev().filter_map(|f| f.fix.as_ref()) {
             text.replace_range(fix.span.clone(), &fix.text);
         }
@@ -253,7 +253,7 @@ fn habits_of_python() {
     }
     let help = |source: &str| {
         let mut globals = Globals::new();
-        let all = Compiler::new(&Mock, &mut globals).statements(source).diagnostics;
+        let all = Compiler::new(&Mock, &mut globals).linting().statements(source).diagnostics;
         all.first().and_then(|f| f.help.clone()).unwrap_or_default()
     };
     assert_eq!(help("ctx.a = 1 if data.ncon else 2"), "write `test ? a : b`");
@@ -281,7 +281,7 @@ fn comments_do_not_divide() {
 fn an_assignment_in_an_expression_moves() {
     let report = |source: &str| {
         let mut globals = Globals::new();
-        let all = Compiler::new(&Mock, &mut globals).expression(source).diagnostics;
+        let all = Compiler::new(&Mock, &mut globals).linting().expression(source).diagnostics;
         all.first().map(|f| (f.code, f.help.clone().unwrap_or_default(), f.fix.is_some()))
     };
     let moved = |source: &str| {

@@ -68,7 +68,7 @@ fn messages_about_calls_contain_no_empty_text() {
             [call.clone(), format!("1 + {call} * 2"), format!("const f = () => {call}; ctx.a = f()[0]")]
         {
             let mut globals = Globals::new();
-            for finding in Compiler::new(&Mock, &mut globals).statements(&source).diagnostics {
+            for finding in Compiler::new(&Mock, &mut globals).linting().statements(&source).diagnostics {
                 reported += 1;
                 let words = [Some(&finding.message), finding.why.as_ref(), finding.help.as_ref()];
                 for text in words.into_iter().flatten() {

@@ -14,75 +14,89 @@ use labspec_core::{AccessSet, Model};
 use labspec_expr::{Compiled, Compiler, Globals, ProgramId, Type, Value};
 
 impl Programs {
-    /// Compiles the texts of a lab against its model. Errors are added to `findings`, with spans in the lesson.
+    /// Compiles the texts of a lab against its model, to run it. Errors are added to `findings`, with spans in the lesson.
     pub fn compile(lab: &Lab, model: &Model, findings: &mut Vec<Finding>) -> Programs {
-        Programs::compile_with(lab, model, &Functions::new(), findings)
+        compile(lab, model, &Functions::new(), |compiler| compiler, findings)
     }
 
-    /// As [`Programs::compile`], with functions of the embedding program.
-    pub fn compile_with(
+    /// As [`Programs::compile`], with functions of the embedding program, and with warnings about code that is rarely intended.
+    pub fn compile_and_lint(
         lab: &Lab,
         model: &Model,
         functions: &Functions,
         findings: &mut Vec<Finding>,
     ) -> Programs {
-        let names = ModelNames::new(model, Scope::Lab).with(functions);
-        let mut globals = Globals::new();
-        let mut texts: Vec<(ProgramId, Text)> = Vec::new();
-        let mut unknown = UnknownNames::default();
-        let mut work = LabCompiler {
-            names: &names,
-            globals: &mut globals,
-            texts: &mut texts,
-            unknown: &mut unknown,
-            findings,
-        };
+        compile(lab, model, functions, |compiler| compiler.linting(), findings)
+    }
+}
 
-        let setup = lab.setup.as_ref().and_then(|t| work.statements(t, None));
-        let controls = lab.controls.iter().map(|c| (c.label.value.clone(), work.control(c))).collect();
-        let controller = lab.controller.as_ref().and_then(|t| work.statements(t, None));
-        let mut probes = Vec::new();
-        for (i, plot) in lab.plots.iter().enumerate() {
-            for trace in &plot.traces {
-                probes.push(Probe {
-                    name: format!("plot/{i}/{}", trace.label.value),
-                    bound: work.expression(&trace.expr),
-                });
-            }
-        }
-        for readout in &lab.readouts {
+/// Sets what a compiler reports.
+type Prepare = for<'s> fn(Compiler<'s>) -> Compiler<'s>;
+
+fn compile(
+    lab: &Lab,
+    model: &Model,
+    functions: &Functions,
+    prepare: Prepare,
+    findings: &mut Vec<Finding>,
+) -> Programs {
+    let names = ModelNames::new(model, Scope::Lab).with(functions);
+    let mut globals = Globals::new();
+    let mut texts: Vec<(ProgramId, Text)> = Vec::new();
+    let mut unknown = UnknownNames::default();
+    let mut work = LabCompiler {
+        names: &names,
+        globals: &mut globals,
+        texts: &mut texts,
+        unknown: &mut unknown,
+        prepare,
+        findings,
+    };
+
+    let setup = lab.setup.as_ref().and_then(|t| work.statements(t, None));
+    let controls = lab.controls.iter().map(|c| (c.label.value.clone(), work.control(c))).collect();
+    let controller = lab.controller.as_ref().and_then(|t| work.statements(t, None));
+    let mut probes = Vec::new();
+    for (i, plot) in lab.plots.iter().enumerate() {
+        for trace in &plot.traces {
             probes.push(Probe {
-                name: format!("readout/{}", readout.label.value),
-                bound: work.expression(&readout.expr),
+                name: format!("plot/{i}/{}", trace.label.value),
+                bound: work.expression(&trace.expr),
             });
         }
-        unknown.join(findings);
-        for (id, d) in globals.unset(&HOST_TERMS) {
-            if let Some((_, text)) = texts.iter().find(|(t, _)| *t == id) {
-                findings.push(to_finding(&d, text));
-            }
-        }
-        let access = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
-        let functions = functions.clone();
-        let mut programs = Programs {
-            setup,
-            controller,
-            controls,
-            probes,
-            globals,
-            access,
-            functions,
-            model: model.identity(),
-            coupled: None,
-            observed: None,
-        };
-        let mut access = programs.access;
-        for bound in programs.bound() {
-            include(bound.program.effects(), &mut access);
-        }
-        programs.access = access;
-        programs
     }
+    for readout in &lab.readouts {
+        probes.push(Probe {
+            name: format!("readout/{}", readout.label.value),
+            bound: work.expression(&readout.expr),
+        });
+    }
+    unknown.join(findings);
+    for (id, d) in globals.unset(&HOST_TERMS) {
+        if let Some((_, text)) = texts.iter().find(|(t, _)| *t == id) {
+            findings.push(to_finding(&d, text));
+        }
+    }
+    let access = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
+    let functions = functions.clone();
+    let mut programs = Programs {
+        setup,
+        controller,
+        controls,
+        probes,
+        globals,
+        access,
+        functions,
+        model: model.identity(),
+        coupled: None,
+        observed: None,
+    };
+    let mut access = programs.access;
+    for bound in programs.bound() {
+        include(bound.program.effects(), &mut access);
+    }
+    programs.access = access;
+    programs
 }
 
 /// The compilation of one lab.
@@ -91,6 +105,7 @@ struct LabCompiler<'a> {
     globals: &'a mut Globals,
     texts: &'a mut Vec<(ProgramId, Text)>,
     unknown: &'a mut UnknownNames,
+    prepare: Prepare,
     findings: &'a mut Vec<Finding>,
 }
 
@@ -107,7 +122,7 @@ impl LabCompiler<'_> {
 
     fn compiler(&mut self, value: Option<Type>) -> Compiler<'_> {
         // Another rule reports typographic quotes, once for a whole text.
-        Compiler::new(self.names, self.globals).with_value(value).without_quotes()
+        (self.prepare)(Compiler::new(self.names, self.globals)).with_value(value).without_quotes()
     }
 
     fn keep(&mut self, text: &Text, compiled: Compiled) -> Option<Bound> {

@@ -310,7 +310,7 @@ pub fn bind(
     };
     rules::check_model(lab, &model, findings);
     let before = findings.len();
-    let programs = Programs::compile_with(lab, &model, models.functions(), findings);
+    let programs = Programs::compile_and_lint(lab, &model, models.functions(), findings);
     rules::integrator_control::check_controls(lab, &programs, findings);
     let mistakes = findings.iter().skip(before).filter(|f| f.severity == Severity::Error).count();
     Some((model, programs, mistakes))

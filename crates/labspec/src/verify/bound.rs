@@ -259,11 +259,12 @@ impl<'a> BoundVerify<'a> {
             compiled.program.map(|program| CompiledText { text: Cow::Borrowed(text), program })
         };
         let setup = run.setup.as_ref();
-        let setup =
-            setup.and_then(|t| keep(t, Compiler::new(&names(Scope::Lab), globals).statements(&t.value)));
+        let setup = setup
+            .and_then(|t| keep(t, Compiler::new(&names(Scope::Lab), globals).linting().statements(&t.value)));
         let stop = run.stop.as_ref();
-        let stop =
-            stop.and_then(|t| keep(t, Compiler::new(&names(Scope::Measure), globals).expression(&t.value)));
+        let stop = stop.and_then(|t| {
+            keep(t, Compiler::new(&names(Scope::Measure), globals).linting().expression(&t.value))
+        });
         if let Some(stop) = stop.as_ref().filter(|stop| !stop.program.aggregates().is_empty()) {
             findings.push(
                 Finding::error(rules::RUN_IMPOSSIBLE, stop.text.span(), "`stop` must look at one sample, not at a whole run")
@@ -317,7 +318,8 @@ impl<'a> BoundVerify<'a> {
     fn compile_measure(&mut self, place: usize, text: &Text) -> Option<Compiled> {
         let bound = self.scenes.get_mut(place)?;
         let mut globals = bound.globals.clone();
-        let compiled = Compiler::new(&bound.names(Scope::Measure), &mut globals).expression(&text.value);
+        let compiled =
+            Compiler::new(&bound.names(Scope::Measure), &mut globals).linting().expression(&text.value);
         bound.globals = globals;
         Some(compiled)
     }

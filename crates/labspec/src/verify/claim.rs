@@ -109,7 +109,7 @@ impl CompiledClaim {
         let layout = bound.layout();
         let names = OutcomeNames::new(layout, base.names(Scope::Measure));
         let mut globals = base.globals.clone();
-        let compiled = Compiler::new(&names, &mut globals).expression(text);
+        let compiled = Compiler::new(&names, &mut globals).linting().expression(text);
         let mut reads = Vec::new();
         let mut outside = false;
         if let Some(program) = &compiled.program {

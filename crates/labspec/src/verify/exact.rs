@@ -191,7 +191,7 @@ pub(super) fn bind_closed_form<'b>(
     }
     let names = ModelNames::new(model, Scope::Lab).with(&programs.functions);
     let mut globals = programs.globals.clone();
-    let compiled = Compiler::new(&names, &mut globals).expression(&claim.form.value);
+    let compiled = Compiler::new(&names, &mut globals).linting().expression(&claim.form.value);
     findings.extend(compiled.diagnostics.iter().map(|d| to_finding(d, &claim.form)));
     let form = compiled.program.map(|program| Bound { text: claim.form.clone(), program });
     let traces: Option<Vec<&Bound>> = probes.into_iter().collect();

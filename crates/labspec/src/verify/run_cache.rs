@@ -203,7 +203,7 @@ impl<'a> RunCache<'a> {
             None => model,
         };
         let mut problems = Vec::new();
-        let mut programs = Programs::compile_with(&lab, &model, self.models.functions(), &mut problems);
+        let mut programs = Programs::compile_and_lint(&lab, &model, self.models.functions(), &mut problems);
         if let Some(coupled) = &base.programs.coupled {
             coupled.clone().install(&mut programs, &model);
         }

@@ -139,7 +139,7 @@ impl<'a> PrecisionCase<'a> {
                 .find(|e| e.trace.value == *label && matches!(display, DisplayPrecision::Curve { .. }));
             let closed = closed.and_then(|e| {
                 let mut globals = programs.globals.clone();
-                let compiled = Compiler::new(&names, &mut globals).expression(&e.form.value);
+                let compiled = Compiler::new(&names, &mut globals).linting().expression(&e.form.value);
                 findings.extend(compiled.diagnostics.iter().map(|d| to_finding(d, &e.form)));
                 compiled.program.map(|program| Bound { text: e.form.clone(), program })
             });
