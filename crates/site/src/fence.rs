@@ -3,6 +3,7 @@
 use crate::html::Addresses;
 use crate::links::Anchors;
 use crate::models::{Delivery, ModelShelf};
+use crate::names::address_from;
 use crate::text::{escape, json_in_script, slug};
 use crate::twin::{lab_twin, quiz_twin};
 use crate::verified::short_hash;
@@ -65,6 +66,8 @@ pub(crate) fn contains(outer: &Range<usize>, inner: &Range<usize>) -> bool {
 /// Writes the fences of one lesson.
 pub(crate) struct FenceWriter<'w> {
     pub(crate) lesson: &'w Lesson,
+    /// The name of its page.
+    pub(crate) page: &'w str,
     pub(crate) ids: &'w FenceIds,
     /// The number of true claims of each owner whose claims are all true.
     pub(crate) verified: &'w BTreeMap<String, usize>,
@@ -111,8 +114,16 @@ impl FenceWriter<'_> {
         };
         let digest = self.deliver([lab].into_iter());
         let id = escape(self.ids.find(block.span.start).unwrap_or(""));
+        let twin = self.has_twins.then(|| {
+            let address = |name: &str| address_from(self.page, name);
+            lab_twin(lab, &self.lesson.file, self.shelf.models(self.folder), addresses, address)
+        });
+        let (twin, moments) = twin.map(|twin| (twin.html, twin.moments)).unwrap_or_default();
+        let start = moments.start().map(|name| escape(&address_from(self.page, name)).to_string());
+        let poster = start.map_or(String::new(), |start| format!(" poster=\"{start}\""));
+        self.shelf.pictures.extend(moments.files);
         let content = format!(
-            "<sim-lab id=\"{id}\" data-models-hash=\"{}\"><script type=\"application/json\">{}</script></sim-lab>",
+            "<sim-lab id=\"{id}\"{poster} data-models-hash=\"{}\"><script type=\"application/json\">{}</script></sim-lab>",
             short_hash(&[digest.as_bytes()]),
             json_in_script(&json)
         );
@@ -122,13 +133,7 @@ impl FenceWriter<'_> {
             .verified
             .get(&owner)
             .map_or(String::new(), |n| mark("Verified", &[counted(*n, "claim")], &hash));
-        let twin = match self.has_twins {
-            true => format!(
-                "<div class=\"twin\">{}</div>",
-                lab_twin(lab, self.shelf.models(self.folder), addresses)
-            ),
-            false => String::new(),
-        };
+        let twin = if self.has_twins { format!("<div class=\"twin\">{twin}</div>") } else { twin };
         FencePart { kind: "lab", content, after: format!("{twin}{mark}") }
     }
 

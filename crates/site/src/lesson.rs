@@ -121,6 +121,7 @@ pub(crate) fn write_lesson(
     let mut links = PageLinks { places, page, folder: source.folder };
     let mut writer = FenceWriter {
         lesson,
+        page,
         ids: &outline.fences,
         verified: &verified,
         shelf,

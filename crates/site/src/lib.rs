@@ -31,6 +31,7 @@ mod links;
 mod marks;
 mod masked;
 mod models;
+mod moments;
 mod names;
 mod offline;
 mod options;

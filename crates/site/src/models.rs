@@ -18,6 +18,8 @@ pub(crate) struct ModelShelf {
     folders: Vec<(String, Models)>,
     /// The copied files: the name in the site, and the file.
     pub(crate) copied: BTreeMap<String, PathBuf>,
+    /// The pictures of scenes, by their names in the site.
+    pub(crate) pictures: BTreeMap<String, Vec<u8>>,
     /// What cannot be delivered, as sentences.
     pub(crate) problems: Vec<String>,
 }

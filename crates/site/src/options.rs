@@ -32,7 +32,7 @@ pub enum SiteFile {
     Text(String),
     /// A copy of a file.
     Copy(PathBuf),
-    /// An archive.
+    /// A picture or an archive.
     Bytes(Vec<u8>),
 }
 

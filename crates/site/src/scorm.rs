@@ -17,7 +17,7 @@ use crate::text::{address, escape};
 use crate::verified::short_hash;
 use std::collections::BTreeMap;
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// The name of the manifest, which the standard gives.
 const MANIFEST: &str = "imsmanifest.xml";
@@ -36,23 +36,21 @@ pub(crate) fn write_packages(
     page_files: &PageFiles,
 ) -> Result<BTreeMap<String, Vec<u8>>, String> {
     // The scripts are the same in all packages.
-    let mut deflated: BTreeMap<PathBuf, Deflated> = BTreeMap::new();
+    let mut deflated: BTreeMap<Source<'_>, Deflated> = BTreeMap::new();
     let mut packages = BTreeMap::new();
     for page in pages {
         let html = package_page(page, pages, options, scorm);
-        let scripts = page_files.needed(page.has_math, false).map(|(name, path)| (name, path.as_path()));
-        let files: BTreeMap<String, &Path> = scripts.chain(needed_copies(page, &html, copied)).collect();
-        for path in files.values() {
-            if !deflated.contains_key(*path) {
-                let bytes =
-                    std::fs::read(path).map_err(|e| format!("cannot read {}: {e}", path.display()))?;
-                deflated.insert(path.to_path_buf(), deflate(&bytes));
+        let scripts = page_files.needed(page.has_math, false).map(|(name, path)| (name, Source::File(path)));
+        let files: BTreeMap<String, Source<'_>> = scripts.chain(needed_copies(page, &html, copied)).collect();
+        for source in files.values() {
+            if !deflated.contains_key(source) {
+                deflated.insert(*source, source.deflated()?);
             }
         }
         let manifest = deflate(manifest(page, files.keys(), options, scorm).as_bytes());
         let html = deflate(html.as_bytes());
         let first = [(MANIFEST, &manifest), (page.name.as_str(), &html)];
-        let others = files.iter().filter_map(|(name, path)| Some((name.as_str(), deflated.get(*path)?)));
+        let others = files.iter().filter_map(|(name, source)| Some((name.as_str(), deflated.get(source)?)));
         let archive = write_archive(first.into_iter().chain(others))
             .map_err(|e| format!("cannot write a package for {}: {e}", page.name))?;
         packages.insert(package_name(&page.name), archive);
@@ -60,17 +58,37 @@ pub(crate) fn write_packages(
     Ok(packages)
 }
 
+/// Where the bytes of a file of a package come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Source<'f> {
+    File(&'f Path),
+    Bytes(&'f [u8]),
+}
+
+impl Source<'_> {
+    fn deflated(&self) -> Result<Deflated, String> {
+        match self {
+            Source::Bytes(bytes) => Ok(deflate(bytes)),
+            Source::File(path) => {
+                let bytes =
+                    std::fs::read(path).map_err(|e| format!("cannot read {}: {e}", path.display()))?;
+                Ok(deflate(&bytes))
+            }
+        }
+    }
+}
+
 /// The name of the package of a page.
 fn package_name(page: &str) -> String {
     format!("{FOLDER}/{}.zip", page.strip_suffix(".html").unwrap_or(page))
 }
 
-/// The files of the course that a page needs: those to which it links, and its folder of models.
+/// The files of the course that a page needs: those to which it links, its pictures, and its folder of models.
 fn needed_copies<'f>(
     page: &LessonPage,
     html: &str,
     copied: &'f BTreeMap<String, SiteFile>,
-) -> Vec<(String, &'f Path)> {
+) -> Vec<(String, Source<'f>)> {
     let is_needed = |name: &str| {
         let is_model =
             page.model_folder.as_ref().is_some_and(|folder| name.starts_with(&format!("{folder}/")));
@@ -79,7 +97,8 @@ fn needed_copies<'f>(
     copied
         .iter()
         .filter_map(|(name, file)| match file {
-            SiteFile::Copy(path) if is_needed(name) => Some((name.clone(), path.as_path())),
+            SiteFile::Copy(path) if is_needed(name) => Some((name.clone(), Source::File(path))),
+            SiteFile::Bytes(bytes) if is_needed(name) => Some((name.clone(), Source::Bytes(bytes))),
             _ => None,
         })
         .collect()

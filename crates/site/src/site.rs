@@ -193,6 +193,7 @@ pub fn build_site(
     site.files.insert("search.json".into(), SiteFile::Text(search_index(&pages)));
     let copies = places.copied.into_iter().chain(shelf.copied);
     site.files.extend(copies.map(|(name, path)| (name, SiteFile::Copy(path))));
+    site.files.extend(shelf.pictures.into_iter().map(|(name, bytes)| (name, SiteFile::Bytes(bytes))));
     let has_math = pages.iter().any(|page| page.has_math);
     site.files
         .extend(page_files.needed(has_math, false).map(|(name, path)| (name, SiteFile::Copy(path.clone()))));

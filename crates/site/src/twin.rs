@@ -3,16 +3,21 @@
 //! The run is the one of `labspec run` without options: as the lab loads, until its end.
 
 use crate::html::{Addresses, harmless};
+use crate::moments::{Moments, moments};
 use crate::text::escape;
+use labspec::bind::Programs;
 use labspec::bind::scene::Models;
 use labspec::check;
 use labspec::finding::Finding;
 use labspec::json::Scalar;
 use labspec::run::{Cell, RunOptions, Table, final_values, rounded};
+use labspec::source::SourceFile;
 use labspec::spec::{ControlKind, Lab, Plot, Question, QuestionKind, Quiz};
 use labspec::stress::{ComparedRun, compared_runs, comparison_rows, join_runs, watched_run};
+use labspec_core::Model;
 use labspec_plot::{Chart, Series, line_chart};
 use std::fmt::Write;
+use std::sync::Arc;
 
 /// A plot of the lab with the samples of a run.
 pub fn chart(lab: &Lab, plot: &Plot, index: usize, table: &Table) -> Chart {
@@ -40,15 +45,34 @@ pub fn chart(lab: &Lab, plot: &Plot, index: usize, table: &Table) -> Chart {
     }
 }
 
-/// A lab as text and pictures.
-pub(crate) fn lab_twin(lab: &Lab, models: Option<&Models>, addresses: &mut dyn Addresses) -> String {
+/// The twin of a lab: its HTML, and the pictures of its run.
+pub(crate) struct LabTwin {
+    pub(crate) html: String,
+    pub(crate) moments: Moments,
+}
+
+/// A lab as text and pictures. `address` gives the address of a picture from its page.
+pub(crate) fn lab_twin(
+    lab: &Lab,
+    file: &SourceFile,
+    models: Option<&Models>,
+    addresses: &mut dyn Addresses,
+    address: impl Fn(&str) -> String,
+) -> LabTwin {
     let mut out = String::new();
+    let mut drawn = Moments::default();
     if !lab.title().is_empty() {
         let _ = write!(out, "<p class=\"twin-title\">{}</p>", escape(lab.title()));
     }
     match run_lab(lab, models) {
-        Ok(LabRuns::One(table)) => out.push_str(&results(lab, &table)),
-        Ok(LabRuns::Compared(runs)) => out.push_str(&comparison(lab, &runs)),
+        Ok(runs) => {
+            drawn = moments(lab, file, &runs.model, runs.programs, runs.end);
+            out.push_str(&drawn.html(lab.title(), address));
+            match runs.tables {
+                LabTables::One(table) => out.push_str(&results(lab, &table)),
+                LabTables::Compared(runs) => out.push_str(&comparison(lab, &runs)),
+            }
+        }
         Err(why) => {
             let _ = write!(
                 out,
@@ -60,11 +84,20 @@ pub(crate) fn lab_twin(lab: &Lab, models: Option<&Models>, addresses: &mut dyn A
     if let Some(note) = &lab.note {
         let _ = write!(out, "<p class=\"note\">{}</p>", harmless(note.as_str(), addresses));
     }
-    out
+    LabTwin { html: out, moments: drawn }
+}
+
+/// A lab that has run.
+struct LabRuns {
+    tables: LabTables,
+    model: Arc<Model>,
+    programs: Programs,
+    /// The time at the end of the run, s.
+    end: f64,
 }
 
 /// The run of a lab as it loads, or a run for each integrator that it compares.
-enum LabRuns {
+enum LabTables {
     One(Table),
     Compared(Vec<ComparedRun>),
 }
@@ -77,18 +110,18 @@ fn run_lab(lab: &Lab, models: Option<&Models>) -> Result<LabRuns, String> {
     let first = || {
         findings.iter().find(|f| f.is_error()).map_or("its model does not load".into(), |f| f.message.clone())
     };
-    match &bound {
-        Some((model, programs, 0)) => {
-            let options = RunOptions::default();
-            match compared_runs(lab, model, programs, &options).map_err(|e| e.to_string())? {
-                Some(runs) => Ok(LabRuns::Compared(runs)),
-                None => {
-                    watched_run(lab, model, programs, &options).map(LabRuns::One).map_err(|e| e.to_string())
-                }
-            }
-        }
-        _ => Err(first()),
-    }
+    let Some((model, programs, 0)) = bound else { return Err(first()) };
+    let options = RunOptions::default();
+    let tables = match compared_runs(lab, &model, &programs, &options).map_err(|e| e.to_string())? {
+        Some(runs) => LabTables::Compared(runs),
+        None => LabTables::One(watched_run(lab, &model, &programs, &options).map_err(|e| e.to_string())?),
+    };
+    let table = match &tables {
+        LabTables::One(table) => Some(table),
+        LabTables::Compared(runs) => runs.first().map(|run| &run.table),
+    };
+    let end = table.and_then(|table| table.rows.last()?.first()).map_or(0.0, Cell::number);
+    Ok(LabRuns { tables, model, programs, end })
 }
 
 fn results(lab: &Lab, table: &Table) -> String {

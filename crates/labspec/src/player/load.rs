@@ -107,6 +107,11 @@ impl Player {
         Ok(Player::start(Arc::new(lab.clone()), lesson.file.clone(), loaded, &model, programs))
     }
 
+    /// Opens a lab of a lesson whose texts are compiled, see [`check::bind`].
+    pub fn of_compiled(lab: &Lab, file: &SourceFile, model: &Model, programs: Programs) -> Player {
+        Player::start(Arc::new(lab.clone()), file.clone(), Vec::new(), model, programs)
+    }
+
     /// A lab at its start.
     fn start(
         lab: Arc<Lab>,

@@ -5,7 +5,7 @@ import { deferred } from "../deferred.js";
 import { h, takeOwnProperty } from "../dom.js";
 import { EngineError, prepareEngine } from "../engine/client.js";
 import { createBadge } from "../proof/badge.js";
-import type { LabSpec } from "../spec.js";
+import type { Json, LabSpec } from "../spec.js";
 import { prepareViews } from "../view/index.js";
 import { decodeState, stateInFragment, StateError } from "../state/fragment.js";
 import { applyStyles, watchTheme } from "../style/apply.js";
@@ -13,6 +13,7 @@ import { messagesFor, type Say } from "../text/messages.js";
 import { readSpec } from "./integrators.js";
 import { errorPanel, findingText } from "./layout.js";
 import { joinLink, type Link } from "./links.js";
+import { createOutline, type Outline } from "./outline.js";
 import { openPanel, type Panel } from "./panel.js";
 
 const TAG = "sim-lab";
@@ -24,6 +25,7 @@ export class SimLab extends HTMLElement {
   #lab: object | string | null = null;
   #models: Models | null = null;
   #panel: Panel | null = null;
+  #outline: Outline | null = null;
   /** The number of openings. The results of older openings are dropped. */
   #turn = 0;
   #isWanted = false;
@@ -168,6 +170,7 @@ export class SimLab extends HTMLElement {
     this.#link = null;
     this.#panel?.dispose();
     this.#panel = null;
+    this.#endOutline();
     // Who waits for a lab that was not open yet waits for the one that is opened next.
     if (this.#ready.isSettled) this.#ready = deferred();
     if (this.shadowRoot !== null) this.#showLoading(this.shadowRoot);
@@ -177,6 +180,24 @@ export class SimLab extends HTMLElement {
     if (!this.#isWanted) return;
     this.#close();
     this.#want();
+  }
+
+  /** Shows what the lab will look like. */
+  #showOutline(root: ShadowRoot, json: Json, spec: LabSpec, say: Say): void {
+    this.#endOutline();
+    this.#outline = createOutline(json, spec, this.#poster(), say);
+    show(root, this.#outline.element);
+  }
+
+  #endOutline(): void {
+    this.#outline?.dispose();
+    this.#outline = null;
+  }
+
+  /** The address of the picture of the start; `null` where the lab opens in another state. */
+  #poster(): string | null {
+    const isAtStart = this.#state === null && stateInFragment(location.hash, this.#key()) === null;
+    return isAtStart ? this.getAttribute("poster") : null;
   }
 
   #showLoading(root: ShadowRoot): void {
@@ -192,11 +213,14 @@ export class SimLab extends HTMLElement {
       await childrenRead();
       const { json, text } = await readContent(this, this.#lab, say("noLab"), say);
       const spec = readSpec(json, text);
+      if (isOld()) return;
+      this.#showOutline(root, json, spec, say);
       const models = await readModels(this, this.#models, spec.model, say);
       if (isOld()) return;
       const [panel, remark] = await this.#openInState(spec, models, say);
       if (isOld()) return panel.dispose();
       this.#panel = panel;
+      this.#endOutline();
       this.#join(panel, remark !== null);
       const badge = createBadge(this, json, models, say);
       if (badge !== null) panel.element.append(badge);
@@ -210,6 +234,7 @@ export class SimLab extends HTMLElement {
       this.#tell("lab-ready", {});
     } catch (e) {
       if (isOld()) return;
+      this.#endOutline();
       showError(root, e, say);
       this.#ready.reject(e);
     }
@@ -217,7 +242,7 @@ export class SimLab extends HTMLElement {
 
   /** Opens the lab in the requested state. If the state is refused, the lab opens at its start, with the reason. */
   async #openInState(spec: LabSpec, models: Models, say: Say): Promise<[Panel, string | null]> {
-    const open = (state: Uint8Array | null): Promise<Panel> => openPanel(spec, models, state, this.#key(), say, {
+    const open = (state: Uint8Array | null): Promise<Panel> => openPanel(spec, models, { state, poster: state === null ? this.#poster() : null }, this.#key(), say, {
       moved: (label, value) => (value === null ? this.#link?.pressed(label) : this.#link?.moved(label, value)),
       change: (label, value, time) => {
         this.shadowRoot?.querySelector(".failure")?.remove();

@@ -64,8 +64,14 @@ export interface Panel {
   dispose(): void;
 }
 
+/** How a lab starts: in a saved state, and with a picture of its start until it has drawn its own. */
+export interface PanelStart {
+  readonly state: Uint8Array | null;
+  readonly poster: string | null;
+}
+
 /** Opens a lab, and builds its parts. `key` is its name in addresses. */
-export async function openPanel(spec: LabSpec, models: Models, state: Uint8Array | null, key: string, say: Say, events: PanelEvents): Promise<Panel> {
+export async function openPanel(spec: LabSpec, models: Models, { state, poster }: PanelStart, key: string, say: Say, events: PanelEvents): Promise<Panel> {
   const compares = spec.compared.length > 0;
   const remote = await (compares ? openCompared(spec.compared, INTEGRATOR, models, state) : openRemote(spec.json, models, state));
   const { opened } = remote;
@@ -127,7 +133,7 @@ export async function openPanel(spec: LabSpec, models: Models, state: Uint8Array
       events.change(label, value, frame.time);
     }, () => undefined);
   };
-  const viewport = createViewport(opened, spec, say, {
+  const viewport = createViewport(opened, spec, poster, say, {
     drag: (drag) => void player.drag(drag), say: spoken.say, released: () => viewBar.showReleased(),
   });
   const viewBar = createViewBar(opened, spec, viewport, say);

@@ -26,7 +26,8 @@ export interface ToolbarActions {
 
 export interface ToolbarOptions {
   readonly speeds: readonly number[];
-  readonly timestep: number;
+  /** s; `null` while it is not known. */
+  readonly timestep: number | null;
   /** Whether larger steps get a button: for readers who want no motion. */
   readonly hasLargeSteps: boolean;
   readonly hasPicture: boolean;
@@ -49,7 +50,7 @@ export function createToolbar(options: ToolbarOptions, say: Say, actions: Toolba
   slow.hidden = true;
   const element = h("div", { class: "toolbar", part: "toolbar", role: "group", "aria-label": say("playback") },
     play,
-    button("step", say("step"), actions.step, say("stepHint", { timestep: formatBrief(options.timestep) })),
+    button("step", say("step"), actions.step, options.timestep === null ? undefined : say("stepHint", { timestep: formatBrief(options.timestep) })),
     options.hasLargeSteps && button("step", say("stepMore"), actions.stepMore),
     button("reset", say("reset"), actions.reset),
     createSpeeds(options.speeds, say, actions),

@@ -8,6 +8,7 @@ import type { Say } from "../text/messages.js";
 import { builtinTextures } from "../texture/textures.js";
 import { cameraAxes, copyPose, moveCameraByKey, panCamera, pinchCamera, scaled, turnCamera, zoomCamera, type Point } from "./camera-moves.js";
 import { drawPaced, forgetPaced } from "./pace.js";
+import { createPoster } from "./poster.js";
 
 export interface Viewport {
   readonly element: HTMLElement;
@@ -51,13 +52,15 @@ export function bodyName({ bodies }: Opened, body: number, say: Say): string {
 const TAP = 8;
 const TURN = 0.4;
 
-export function createViewport(opened: Opened, spec: LabSpec, say: Say, actions: ViewportActions): Viewport {
+export function createViewport(opened: Opened, spec: LabSpec, poster: string | null, say: Say, actions: ViewportActions): Viewport {
   const canvas = h("canvas", { part: "view" });
   const title = spec.title === "" ? say("lab") : spec.title;
   const hint = h("span", { class: "tap-hint", "aria-hidden": "true" }, say("viewTap"));
   const element = h("div", {
     class: "view", tabindex: 0, role: "application", "aria-label": say("view", { title }), "aria-description": say("viewHelp"),
   }, canvas, hint);
+  const firstPicture = poster === null ? null : createPoster(poster);
+  if (firstPicture !== null) element.prepend(firstPicture);
   element.style.height = `${spec.height}px`;
   const trail = spec.trail === null ? -1 : opened.sites.indexOf(spec.trail);
   let [model, textures]: [SceneModel, readonly SceneTexture[]] = [opened.model, builtinTextures(opened.textures)];
@@ -97,6 +100,7 @@ export function createViewport(opened: Opened, spec: LabSpec, say: Say, actions:
       isBegun = true;
       view?.setFrame(state.frame);
       view?.draw();
+      firstPicture?.remove();
     },
     setFrame(frame) {
       state.frame = frame;

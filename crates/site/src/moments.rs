@@ -1,0 +1,339 @@
+//! A run of a lab in pictures, at the times that matter: at its start, where two things first touch, and at its end; and what touches when,
+//! in sentences.
+
+use crate::text::escape;
+use crate::verified::short_hash;
+use labspec::Player;
+use labspec::bind::Programs;
+use labspec::run::rounded;
+use labspec::source::SourceFile;
+use labspec::spec::Lab;
+use labspec_core::{Data, Model, Obj, Planned};
+use labspec_scene::{Camera, Overlays, Picture, View, draw};
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::ops::ControlFlow;
+
+/// The width of a picture, pixels: that of the text of a page and a little more. Its height is that of the lab.
+const WIDTH: usize = 800;
+/// The height of a picture is not above this, pixels.
+const MOST_HIGH: f64 = 600.0;
+/// Contacts that are told one by one.
+const MOST_TOLD: usize = 8;
+/// The points of the path of a site.
+const TRAIL_POINTS: usize = 300;
+
+/// A run in pictures and sentences.
+#[derive(Debug, Default)]
+pub(crate) struct Moments {
+    /// The pictures by their names in the site.
+    pub(crate) files: BTreeMap<String, Vec<u8>>,
+    /// The name of each picture, and what it shows.
+    shown: Vec<(String, String)>,
+    /// What happens, in sentences.
+    told: Vec<String>,
+}
+
+impl Moments {
+    /// The name of the picture of the start, from which the element of a page starts.
+    pub(crate) fn start(&self) -> Option<&str> {
+        self.shown.first().map(|(name, _)| name.as_str())
+    }
+
+    /// The pictures and the sentences as HTML. `address` gives the address of a picture from its page.
+    pub(crate) fn html(&self, title: &str, address: impl Fn(&str) -> String) -> String {
+        let mut out = String::new();
+        if !self.shown.is_empty() {
+            out.push_str("<div class=\"moments\">");
+            for (name, caption) in &self.shown {
+                let described =
+                    if title.is_empty() { caption.clone() } else { format!("{title}: {caption}") };
+                let _ = write!(
+                    out,
+                    "<figure><img src=\"{}\" alt=\"{}\"><figcaption>{}</figcaption></figure>",
+                    escape(&address(name)),
+                    escape(&described),
+                    escape(caption)
+                );
+            }
+            out.push_str("</div>");
+        }
+        if !self.told.is_empty() {
+            let sentences: String =
+                self.told.iter().map(|text| format!("<li>{}</li>", escape(text))).collect();
+            let _ = write!(out, "<ul class=\"told\">{sentences}</ul>");
+        }
+        out
+    }
+
+    fn add(&mut self, picture: &Picture, caption: String) {
+        let Some(file) = picture.to_jpeg() else { return };
+        let name = format!("pictures/{}.jpg", short_hash(&[&file]));
+        // Where nothing has moved, one picture is enough.
+        if self.shown.last().is_none_or(|(last, _)| *last != name) {
+            self.files.insert(name.clone(), file);
+            self.shown.push((name, caption));
+        }
+    }
+}
+
+/// How a lab shows its scene.
+fn view_of(lab: &Lab) -> View {
+    let mut overlays = Overlays::default();
+    for (name, shown) in &lab.overlays {
+        let overlay = match name.as_str() {
+            "frames" => &mut overlays.frames,
+            "joints" => &mut overlays.joints,
+            "contacts" => &mut overlays.contacts,
+            "forces" => &mut overlays.forces,
+            "com" => &mut overlays.com,
+            "sites" => &mut overlays.sites,
+            "cameras" => &mut overlays.cameras,
+            "shadows" => &mut overlays.shadows,
+            _ => continue,
+        };
+        *overlay = *shown;
+    }
+    let camera = &lab.camera;
+    View {
+        camera: Camera {
+            azimuth: camera.azimuth,
+            elevation: camera.elevation,
+            distance: camera.distance,
+            target: camera.target,
+        },
+        overlays,
+        force_scale: lab.force_scale(),
+        trail: Vec::new(),
+        size: [WIDTH, lab.height().clamp(80.0, MOST_HIGH) as usize],
+    }
+}
+
+/// A run that is drawn.
+struct DrawnRun<'r> {
+    player: Player,
+    view: View,
+    /// The site whose path is drawn.
+    traced: Option<usize>,
+    /// The pairs of geoms that touch.
+    touching: Vec<(usize, usize)>,
+    end: f64,
+    moments: &'r mut Moments,
+}
+
+/// The run of a lab as it loads, up to a time, s.
+pub(crate) fn moments(lab: &Lab, file: &SourceFile, model: &Model, programs: Programs, end: f64) -> Moments {
+    let mut moments = Moments::default();
+    let mut run = DrawnRun {
+        player: Player::of_compiled(lab, file, model, programs),
+        view: view_of(lab),
+        traced: lab.trail.as_ref().and_then(|site| model.names.id(Obj::Site, site.as_str())),
+        touching: Vec::new(),
+        end,
+        moments: &mut moments,
+    };
+    run.draw("at the start".into());
+    // A lab that breaks shows what it shows until then.
+    let _ = run.play();
+    moments
+}
+
+impl DrawnRun<'_> {
+    fn draw(&mut self, caption: String) {
+        if let Ok((model, data)) = self.player.model_and_scene() {
+            let picture = draw(model, data, &self.view);
+            self.moments.add(&picture, caption);
+        }
+    }
+
+    /// Plays to the end: draws where two things first touch, and the end.
+    fn play(&mut self) -> Result<(), labspec::Error> {
+        let mut first = true;
+        let mut untold = 0;
+        // What touches in the first step does so at the start.
+        let steps = self.player.timestep();
+        let start = self.player.time() + 1.5 * steps;
+        while let Some((a, b)) = self.next_contact()? {
+            let time = self.player.time();
+            if time <= start {
+                continue;
+            }
+            let [a, b] = ordered([a, b].map(|geom| name_of(self.player.model(), geom)));
+            let at = seconds(time);
+            if std::mem::take(&mut first) && time < self.end - steps {
+                self.draw(format!("at {at} s, when {a} touches {b}"));
+            }
+            match self.moments.told.len() {
+                n if n < MOST_TOLD => self.moments.told.push(capital(&format!("{a} touches {b} at {at} s."))),
+                _ => untold += 1,
+            }
+        }
+        if untold > 0 {
+            let s = if untold == 1 { "" } else { "s" };
+            self.moments
+                .told
+                .push(format!("{untold} more contact{s} follow{}.", if untold == 1 { "s" } else { "" }));
+        }
+        if self.player.time() > start {
+            self.draw(format!("after {} s", seconds(self.player.time())));
+        }
+        Ok(())
+    }
+
+    /// Plays to the next step in which two geoms touch that did not touch before. `None`: there is none up to the end.
+    fn next_contact(&mut self) -> Result<Option<(usize, usize)>, labspec::Error> {
+        let most = self.traced.map_or(usize::MAX, |_| self.steps_between_points());
+        loop {
+            let before = self.player.time();
+            if before >= self.end || self.player.is_over() {
+                return Ok(None);
+            }
+            let mut found = None;
+            let touching = &mut self.touching;
+            let mut each = |data: &Data<Planned>| {
+                let now = touching_pairs(data);
+                found = now.iter().copied().find(|pair| touching.binary_search(pair).is_err());
+                *touching = now;
+                if found.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            };
+            self.player.play_while(self.end, most, |data, _| each(data))?;
+            self.add_to_trail();
+            if found.is_some() {
+                return Ok(found);
+            }
+            // A program may hold the time.
+            if self.player.time() <= before {
+                return Ok(None);
+            }
+        }
+    }
+
+    fn steps_between_points(&self) -> usize {
+        (self.end / self.player.timestep() / TRAIL_POINTS as f64).clamp(1.0, 1e6) as usize
+    }
+
+    fn add_to_trail(&mut self) {
+        let Some(site) = self.traced else { return };
+        let Ok((_, data)) = self.player.model_and_scene() else { return };
+        let point = data.site_xpos.as_chunks::<3>().0.get(site).copied();
+        self.view.trail.extend(point.filter(|p| p.iter().all(|x| x.is_finite())));
+    }
+}
+
+/// The pairs of geoms that touched in the last step, in ascending order.
+fn touching_pairs(data: &Data<Planned>) -> Vec<(usize, usize)> {
+    let pairs = data.fields().contact.iter().filter(|c| c.exclude == 0).map(|c| (c.geom1, c.geom2));
+    let mut pairs: Vec<(usize, usize)> = pairs.collect();
+    pairs.sort_unstable();
+    pairs.dedup();
+    pairs
+}
+
+/// The name of a geom for readers: its own, that of its body, or its number.
+fn name_of(model: &Model, geom: usize) -> String {
+    let own = model.names.of_kind(Obj::Geom).get(geom).filter(|name| !name.is_empty());
+    let body =
+        model.geom_bodyid.get(geom).and_then(|body| usize::try_from(*body).ok()).filter(|body| *body > 0);
+    let of_body = || model.names.of_kind(Obj::Body).get(body?).filter(|name| !name.is_empty());
+    own.or_else(of_body).map_or_else(|| format!("geom {geom}"), |name| name.replace('_', " "))
+}
+
+/// Words of what stays where it is: the second name of a sentence.
+const GROUND: [&str; 8] = ["floor", "ground", "plane", "table", "wall", "ramp", "slope", "boden"];
+
+/// Orders two names: the floor, a wall or a table is the second one.
+fn ordered([first, second]: [String; 2]) -> [String; 2] {
+    let is_ground = |name: &str| GROUND.iter().any(|word| name.to_lowercase().contains(word));
+    if is_ground(&first) && !is_ground(&second) { [second, first] } else { [first, second] }
+}
+
+fn seconds(time: f64) -> String {
+    rounded(time, 2)
+}
+
+fn capital(text: &str) -> String {
+    let mut rest = text.chars();
+    rest.next().map_or(String::new(), |c| c.to_uppercase().chain(rest).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use labspec::bind::scene::Models;
+    use labspec::check;
+    use labspec::lint::{ModelFolder, load_lesson};
+
+    fn run_of(lab: &str, end: f64) -> Moments {
+        let lesson = load_lesson(SourceFile::new("lab.json", lab), &ModelFolder::unknown());
+        let lab = lesson.all_labs()[0];
+        let (model, programs, errors) =
+            check::bind(lab, &Models::new(ModelFolder::unknown()), &mut Vec::new()).unwrap();
+        assert_eq!(errors, 0);
+        moments(lab, &lesson.file, &model, programs, end)
+    }
+
+    fn captions(moments: &Moments) -> Vec<&str> {
+        moments.shown.iter().map(|(_, caption)| caption.as_str()).collect()
+    }
+
+    const BALL: &str = "<body name='the_ball' pos='0 0 1'><freejoint/><geom size='.1'/></body>";
+    const FLOOR: &str = "<geom name='floor' type='plane' size='2 2 .1'/>";
+
+    fn lab(bodies: &str, rest: &str) -> String {
+        format!("{{\"xml\": \"<mujoco><worldbody>{bodies}</worldbody></mujoco>\", \"height\": 200{rest}}}")
+    }
+
+    #[test]
+    fn a_fall_has_its_start_its_impact_and_its_end() {
+        let run = run_of(&lab(&format!("{FLOOR}{BALL}"), ""), 1.0);
+        // 0.9 m: √(2 · 0.9 / 9.81) s.
+        assert_eq!(
+            captions(&run),
+            ["at the start", "at 0.43 s, when the ball touches floor", "after 1.00 s"]
+        );
+        assert_eq!(run.told[0], "The ball touches floor at 0.43 s.");
+        assert_eq!(run.files.len(), 3);
+        let html = run.html("Fall", |name| format!("../{name}"));
+        assert!(
+            html.contains("<img src=\"../pictures/") && html.contains("alt=\"Fall: at the start\""),
+            "{html}"
+        );
+    }
+
+    #[test]
+    fn what_rests_from_the_start_is_not_told_and_needs_one_picture() {
+        let run = run_of(&lab(&format!("{FLOOR}<geom size='.1' pos='0 0 .1'/>"), ""), 0.5);
+        assert_eq!((captions(&run), run.told.len()), (vec!["at the start"], 0));
+        let run = run_of(&lab(&format!("{FLOOR}{}", BALL.replace("0 0 1", "0 0 .0995")), ""), 0.2);
+        assert_eq!(run.told.len(), 0, "{:?}", run.told);
+    }
+
+    #[test]
+    fn many_contacts_are_counted() {
+        let balls: String = (0..12)
+            .map(|i| {
+                format!(
+                    "<body pos='{i} 0 {}'><freejoint/><geom size='.1'/></body>",
+                    0.3 + 0.05 * f64::from(i)
+                )
+            })
+            .collect();
+        let run = run_of(&lab(&format!("{}{balls}", FLOOR.replace("2 2 .1", "0 0 .1")), ""), 1.0);
+        assert!(run.told.len() == MOST_TOLD + 1, "{:?}", run.told);
+        assert!(run.told[MOST_TOLD].ends_with(" more contacts follow."), "{:?}", run.told);
+    }
+
+    #[test]
+    fn the_path_of_a_site_is_drawn() {
+        let ball = BALL.replace("<geom", "<site name='s'/><geom");
+        let [plain, traced] = ["", ", \"trail\": \"s\""].map(|trail| run_of(&lab(&ball, trail), 0.3));
+        assert_eq!(plain.shown[0], traced.shown[0]);
+        assert_ne!(plain.shown[1], traced.shown[1]);
+    }
+
+    #[test]
+    fn a_lab_that_breaks_shows_its_start() {
+        let run = run_of(&lab(BALL, ", \"controller\": \"ctx.nothing.x = 1\""), 0.3);
+        assert_eq!(captions(&run)[0], "at the start");
+    }
+}
