@@ -3,6 +3,7 @@ import type { Finding } from "labspec/slim";
 import { h, icon } from "../dom.js";
 import type { LabSpec } from "../spec.js";
 import type { Say } from "../text/messages.js";
+import { safeHtml } from "../text/sanitize.js";
 
 export interface LabParts {
   readonly spec: LabSpec;
@@ -15,7 +16,6 @@ export interface LabParts {
   readonly buttons: readonly HTMLElement[];
   readonly readouts: HTMLElement | null;
   readonly plots: readonly HTMLElement[];
-  readonly note: HTMLElement | null;
   readonly spoken: readonly HTMLElement[];
   readonly findings: readonly Finding[];
 }
@@ -30,10 +30,11 @@ export function layOut(parts: LabParts): HTMLElement {
   const controls = hasControls ? h("div", { class: "controls", part: "controls", role: "group", "aria-label": say("controls") }, ...parts.controls, buttons) : null;
   const side = controls !== null || parts.readouts !== null ? h("div", { class: "side" }, controls, parts.readouts) : null;
   const plots = parts.plots.length > 0 ? h("div", { class: "plots", part: "plots" }, ...parts.plots) : null;
+  const note = spec.note === null ? null : h("div", { class: "note", part: "note", dir: "auto" }, safeHtml(spec.note, document));
   const stage = h("div", { class: "stage" }, parts.view, parts.toolbar, parts.viewBar);
   const wrong = parts.findings.filter((finding) => finding.severity === "error");
   return h("article", { class: spec.dock ? "lab dock" : "lab", part: "lab", "aria-label": parts.title },
-    head, h("div", { class: "body" }, stage, side), plots, parts.note, ...parts.spoken, wrong.length > 0 && findingsList(wrong, say));
+    head, h("div", { class: "body" }, stage, side), plots, note, ...parts.spoken, wrong.length > 0 && findingsList(wrong, say));
 }
 
 /** The findings of a lab that runs in spite of them. */

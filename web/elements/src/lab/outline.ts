@@ -10,6 +10,7 @@ import { createReadouts } from "./readouts.js";
 import { layOut } from "./layout.js";
 import { createPoster } from "./poster.js";
 import { createToolbar } from "./toolbar.js";
+import { createToggles, viewBarOf } from "./view-bar.js";
 
 export interface Outline {
   readonly element: HTMLElement;
@@ -25,6 +26,7 @@ export function createOutline(lab: Json, spec: LabSpec, poster: string | null, s
   const controls = listOf(lab["controls"]).filter(isObject).map(outlineOf);
   const isButton = (element: HTMLElement): boolean => element.localName === "button";
   const readouts = spec.compared.length > 0 ? [] : listOf(lab["readouts"]).filter(isObject);
+  const toggles = createToggles(spec, { overlay: (name) => spec.overlays[name] ?? name === "shadows", setOverlay: () => undefined }, say);
   const nothing = (): void => undefined;
   const toolbar = createToolbar(
     { speeds: spec.speeds, timestep: null, hasLargeSteps: matchMedia("(prefers-reduced-motion: reduce)").matches, hasPicture: true, first: null }, say, {
@@ -32,9 +34,9 @@ export function createOutline(lab: Json, spec: LabSpec, poster: string | null, s
       savePicture: nothing,
     });
   const element = layOut({
-    spec, title, say, view, viewBar: null, toolbar: toolbar.element, controls: controls.filter((control) => !isButton(control)),
+    spec, title, say, view, viewBar: viewBarOf(toggles, null), toolbar: toolbar.element, controls: controls.filter((control) => !isButton(control)),
     buttons: controls.filter(isButton), readouts: createReadouts(readouts.map((one) => ({ label: textOf(one["label"]) ?? "", unit: "" })), say("readouts")).element,
-    plots: plots.map((plot) => plot.element), note: null, spoken: [], findings: [],
+    plots: plots.map((plot) => plot.element), spoken: [], findings: [],
   });
   for (const child of element.children) (child as HTMLElement).inert = true;
   element.append(h("p", { class: "hidden", role: "status" }, say("loading")));

@@ -1,6 +1,6 @@
 /** An open lab: its parts, which receive the frames of the engine. */
 import type { ControlValue, Models } from "labspec/slim";
-import { fileName, h, saveFile } from "../dom.js";
+import { fileName, saveFile } from "../dom.js";
 import { openRemote, type RemoteLab } from "../engine/client.js";
 import { openCompared } from "../engine/compared.js";
 import type { EngineEvent, Frame } from "../engine/messages.js";
@@ -10,7 +10,6 @@ import type { LabSpec } from "../spec.js";
 import { checkState, encodeState, fragmentWith } from "../state/fragment.js";
 import type { Say } from "../text/messages.js";
 import { formatTime } from "../text/numbers.js";
-import { safeHtml } from "../text/sanitize.js";
 import { allTextures } from "../texture/textures.js";
 import { createComparison } from "./comparison.js";
 import { createControls } from "./controls.js";
@@ -188,10 +187,9 @@ export async function openPanel(spec: LabSpec, models: Models, { state, poster }
       savePicture: () => viewport.savePicture(title),
     });
   player.speed = spec.speeds.includes(1) ? 1 : (spec.speeds[0] ?? 1);
-  const note = spec.note === null ? null : h("div", { class: "note", part: "note", dir: "auto" }, safeHtml(spec.note, document));
   const element = layOut({
     spec, title, say, view: viewport.element, viewBar: viewBar.element, toolbar: toolbar.element, controls: controls.elements,
-    buttons: controls.buttons, readouts: readouts.element, plots: plots.map((plot) => plot.element), note, spoken: [spoken.log, spoken.region],
+    buttons: controls.buttons, readouts: readouts.element, plots: plots.map((plot) => plot.element), spoken: [spoken.log, spoken.region],
     findings: opened.findings,
   });
   // A reader who has left the lab holds no body: Tab moves from the picture to the buttons of the lab, and the body stays held.

@@ -45,7 +45,7 @@ export function createToolbar(options: ToolbarOptions, say: Say, actions: Toolba
     element.addEventListener("click", act);
     return element;
   };
-  const time = h("output", { class: "clock", "aria-live": "off", "aria-label": say("time") });
+  const time = h("output", { class: "clock", "aria-live": "off", "aria-label": say("time") }, "\u00a0");
   const slow = h("span", { class: "slow", role: "note" });
   slow.hidden = true;
   const element = h("div", { class: "toolbar", part: "toolbar", role: "group", "aria-label": say("playback") },

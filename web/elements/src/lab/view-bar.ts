@@ -15,20 +15,30 @@ export interface ViewBar {
 
 export function createViewBar(opened: Opened, spec: LabSpec, viewport: Viewport, say: Say): ViewBar {
   if (!viewport.isDrawn) return { element: null, bodies: null, showReleased: () => undefined };
-  const toggles = spec.toggles.map((overlay) => {
-    const box = h("input", { type: "checkbox" });
-    box.checked = viewport.overlay(overlay);
-    box.addEventListener("change", () => viewport.setOverlay(overlay, box.checked));
-    return h("label", { class: "toggle", part: "toggle" }, box, h("span", {}, say(overlay)));
-  });
-  const group = toggles.length > 0 ? h("fieldset", { class: "toggles" }, h("legend", { class: "hidden" }, say("overlays")), ...toggles) : null;
+  const group = createToggles(spec, viewport, say);
   const camera = createCameras(opened, viewport, say);
   const bodies = createBodies(opened, viewport, say);
   return {
-    element: group !== null || camera !== null ? h("div", { class: "view-bar", part: "view-bar" }, group, camera) : null,
+    element: viewBarOf(group, camera),
     bodies: bodies?.element ?? null,
     showReleased: () => bodies?.clear(),
   };
+}
+
+/** The bar below the picture, if it contains anything. */
+export function viewBarOf(toggles: HTMLElement | null, camera: HTMLElement | null): HTMLElement | null {
+  return toggles !== null || camera !== null ? h("div", { class: "view-bar", part: "view-bar" }, toggles, camera) : null;
+}
+
+/** A checkbox for each overlay that a lab lets its reader switch. */
+export function createToggles(spec: LabSpec, { overlay: isShown, setOverlay }: Pick<Viewport, "overlay" | "setOverlay">, say: Say): HTMLElement | null {
+  const toggles = spec.toggles.map((overlay) => {
+    const box = h("input", { type: "checkbox" });
+    box.checked = isShown(overlay);
+    box.addEventListener("change", () => setOverlay(overlay, box.checked));
+    return h("label", { class: "toggle", part: "toggle" }, box, h("span", {}, say(overlay)));
+  });
+  return toggles.length > 0 ? h("fieldset", { class: "toggles" }, h("legend", { class: "hidden" }, say("overlays")), ...toggles) : null;
 }
 
 function createCameras({ model }: Opened, viewport: Viewport, say: Say): HTMLElement | null {
