@@ -234,8 +234,8 @@ impl Head {
     }
 }
 
-/// The most pairs in pairs: each is made of bytes that were there before it.
-const DEEPEST: usize = 256;
+/// The most bytes that wait while a pair is replaced: each pair is made of bytes that were there before it.
+const DEEPEST: usize = 257;
 
 /// Writes a module into `out`, whose length is the size of the module.
 pub fn unpack(packed: &[u8], head: &Head, out: &mut [u8]) -> Result<(), Damaged> {
@@ -248,8 +248,9 @@ pub fn unpack(packed: &[u8], head: &Head, out: &mut [u8]) -> Result<(), Damaged>
     }
     out.get_mut(end..).ok_or(Damaged)?.copy_from_slice(rest);
     let out = out.get_mut(..end).ok_or(Damaged)?;
-    let mut unpacker =
-        Unpacker { packed, head, places: head.places, waiting: [0; DEEPEST], count: 0, out, to: begin };
+    let operators = packed.get(head.places[stream::OPERATORS]..head.operators).ok_or(Damaged)?;
+    let next = expand(operators, &head.pairs, out)?;
+    let mut unpacker = Unpacker { packed, places: head.places, out, to: begin, next };
     unpacker.write_number(head.functions as usize)?;
     for _ in 0..head.functions {
         unpacker.function()?;
@@ -257,20 +258,51 @@ pub fn unpack(packed: &[u8], head: &Head, out: &mut [u8]) -> Result<(), Damaged>
     if unpacker.to == end { Ok(()) } else { Err(Damaged) }
 }
 
+/// Writes the operators at the end of `out`, with pairs replaced by what they stand for. Returns where they begin.
+///
+/// Every operator is at least one byte of the functions, so that what is written from the beginning does not reach an operator that is
+/// still to be read.
+fn expand(operators: &[u8], pairs: &[Option<[u8; 2]>; 256], out: &mut [u8]) -> Result<usize, Damaged> {
+    let mut place = out.len();
+    let mut waiting = [0; DEEPEST];
+    // From the last one to the first, so that their number need not be known.
+    for &operator in operators.iter().rev() {
+        let mut count = 1;
+        waiting[0] = operator;
+        while count > 0 {
+            let byte = waiting[count - 1];
+            match pairs[usize::from(byte)] {
+                Some([first, second]) => {
+                    waiting[count - 1] = first;
+                    *waiting.get_mut(count).ok_or(Damaged)? = second;
+                    count += 1;
+                }
+                None => {
+                    place = place.checked_sub(1).ok_or(Damaged)?;
+                    out[place] = byte;
+                    count -= 1;
+                }
+            }
+        }
+    }
+    Ok(place)
+}
+
 struct Unpacker<'a> {
     packed: &'a [u8],
-    head: &'a Head,
     /// The next byte of each stream.
     places: [usize; stream::NAMES],
-    /// Operators that a pair stands for, the next one last.
-    waiting: [u8; DEEPEST],
-    count: usize,
     out: &'a mut [u8],
     to: usize,
+    /// Where the next operator is in `out`.
+    next: usize,
 }
 
 impl Unpacker<'_> {
     fn write(&mut self, byte: u8) -> Result<(), Damaged> {
+        if self.to >= self.next {
+            return Err(Damaged);
+        }
         *self.out.get_mut(self.to).ok_or(Damaged)? = byte;
         self.to += 1;
         Ok(())
@@ -292,7 +324,7 @@ impl Unpacker<'_> {
         copy_function(self)?;
         let (end, length) = (self.to, self.to - start - 1);
         let digits = digits(length);
-        if end - 1 + digits > self.out.len() {
+        if end - 1 + digits > self.next {
             return Err(Damaged);
         }
         self.out.copy_within(start + 1..end, start + digits);
@@ -300,25 +332,6 @@ impl Unpacker<'_> {
         self.write_number(length)?;
         self.to += length;
         Ok(())
-    }
-
-    /// Replaces the pair that is next by what it stands for, up to an operator, which is returned and stays next.
-    fn next(&mut self) -> Result<u8, Damaged> {
-        if self.count == 0 {
-            let place = &mut self.places[stream::OPERATORS];
-            if *place >= self.head.operators {
-                return Err(Damaged);
-            }
-            self.waiting[0] = *self.packed.get(*place).ok_or(Damaged)?;
-            (*place, self.count) = (*place + 1, 1);
-        }
-        loop {
-            let byte = self.waiting[self.count - 1];
-            let Some([first, second]) = self.head.pairs[usize::from(byte)] else { return Ok(byte) };
-            self.waiting[self.count - 1] = second;
-            *self.waiting.get_mut(self.count).ok_or(Damaged)? = first;
-            self.count += 1;
-        }
     }
 
     fn copy(&mut self, stream: usize, mask: u8) -> Result<u8, Damaged> {
@@ -332,8 +345,8 @@ impl Unpacker<'_> {
 
 impl Transfer for Unpacker<'_> {
     fn operator(&mut self) -> Result<u8, Damaged> {
-        let operator = self.next()?;
-        self.count -= 1;
+        let operator = *self.out.get(self.next).ok_or(Damaged)?;
+        self.next += 1;
         self.write(operator)?;
         Ok(operator)
     }
@@ -351,7 +364,7 @@ impl Transfer for Unpacker<'_> {
     }
 
     fn following(&mut self) -> Result<u8, Damaged> {
-        self.next()
+        self.out.get(self.next).copied().ok_or(Damaged)
     }
 
     fn bytes(&mut self, stream: usize, count: u32) -> Result<(), Damaged> {

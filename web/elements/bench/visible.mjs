@@ -32,6 +32,12 @@ function watch() {
       this.addEventListener("message", ({ data }) => mark(data === "ready" ? "engine ready" : "lab opened"));
     }
   };
+  const wait = () => {
+    const lab = document.querySelector("sim-lab")?.shadowRoot;
+    if (lab?.querySelector(".outline, article.lab:not(.loading)")) mark("outline on the page");
+    else requestAnimationFrame(wait);
+  };
+  requestAnimationFrame(wait);
   addEventListener("lab-ready", () => {
     mark("lab on the page");
     requestAnimationFrame(look);
