@@ -85,7 +85,7 @@ pub(crate) struct Content {
 }
 
 impl Content {
-    pub(crate) fn of(m: &Model, d: &Data<Full>, view: &View, eye: &Eye) -> Content {
+    pub(crate) fn new(m: &Model, d: &Data<Full>, view: &View, eye: &Eye) -> Content {
         let reach = plane_reach(m, eye);
         let mut content = Content {
             solids: Vec::new(),
@@ -124,9 +124,9 @@ const NO_COLOR: Color = [0.5, 0.5, 0.5, 1.0];
 /// The colour of an element with its own colour and perhaps a material. Its own wins where it is not MuJoCo's default. `None`: neither
 /// sets one.
 fn color_of(m: &Model, colors: &[f64], id: usize, material: Option<usize>) -> Option<Color> {
-    let own = rows::<4>(colors).get(id).copied().unwrap_or(NO_COLOR);
-    let given = || rows::<4>(&m.mat_rgba).get(material?).copied();
-    if own == NO_COLOR { given() } else { Some(own) }
+    let given = rows::<4>(colors).get(id).copied().unwrap_or(NO_COLOR);
+    let of_material = || rows::<4>(&m.mat_rgba).get(material?).copied();
+    if given == NO_COLOR { of_material() } else { Some(given) }
 }
 
 /// `mat_texid` has a column for each role of a texture (`mjtTextureRole`): the one of colours.

@@ -74,10 +74,10 @@ impl Eye {
     pub(crate) fn ray(&self, x: f64, y: f64) -> Ray {
         let [width, height] = self.size;
         let scale = 2.0 * self.half_height / height;
-        let aside = add_scaled(self.forward, self.right, (x - width / 2.0) * scale);
+        let sideways = add_scaled(self.forward, self.right, (x - width / 2.0) * scale);
         Ray {
             from: self.position,
-            direction: normalize(add_scaled(aside, self.up, (height / 2.0 - y) * scale)).0,
+            direction: normalize(add_scaled(sideways, self.up, (height / 2.0 - y) * scale)).0,
         }
     }
 
@@ -91,8 +91,8 @@ impl Eye {
         let pixel = self.pixel_at(self.depth(point));
         let along = dot(ray.direction, normal);
         let moved = |axis: Vec3| {
-            let aside = add_scaled(axis, ray.direction, -dot(axis, normal) / along);
-            [aside[0] * pixel, aside[1] * pixel, aside[2] * pixel]
+            let step = add_scaled(axis, ray.direction, -dot(axis, normal) / along);
+            [step[0] * pixel, step[1] * pixel, step[2] * pixel]
         };
         [moved(self.right), moved(self.up)]
     }

@@ -113,7 +113,7 @@ impl Light {
 }
 
 impl Lights {
-    pub(crate) fn of(m: &Model, d: &Data<Full>, eye: &Eye, has_shadows: bool) -> Lights {
+    pub(crate) fn new(m: &Model, d: &Data<Full>, eye: &Eye, has_shadows: bool) -> Lights {
         let mut given: Vec<Light> = (0..m.light_type.len()).filter_map(|id| light_of(m, d, id)).collect();
         let active = |id: &usize| light_of(m, d, *id).is_some();
         let of_model = rows::<3>(&m.light_ambient).iter().enumerate().filter(|(id, _)| active(id));

@@ -4,7 +4,7 @@ use crate::View;
 use crate::content::{Content, Solid};
 use crate::eye::Eye;
 use crate::light::Lights;
-use crate::surface::{Scene, Seen};
+use crate::surface::{Scene, Visible};
 use labspec_core::{Data, Full, Model};
 
 /// A picture: rows from top to bottom, three bytes for each pixel: red, green, blue.
@@ -56,8 +56,8 @@ const SAMPLES: [[f64; 2]; 8] = [
 pub fn draw(m: &Model, d: &Data<Full>, view: &View) -> Picture {
     let size = view.size.map(|side| side.min(View::MAX_SIDE));
     let eye = Eye::new(&view.camera, m, size);
-    let content = Content::of(m, d, view, &eye);
-    let lights = Lights::of(m, d, &eye, view.overlays.shadows);
+    let content = Content::new(m, d, view, &eye);
+    let lights = Lights::new(m, d, &eye, view.overlays.shadows);
     let near = 1e-4 * m.stat.extent.max(1e-6);
     let tiles = Tiles::new(&content, &eye, size);
     let scene = Scene { m, content, lights, eye, near };
@@ -73,9 +73,9 @@ pub fn draw(m: &Model, d: &Data<Full>, view: &View) -> Picture {
     for (y, row) in rgb.chunks_exact_mut((3 * width).max(1)).enumerate() {
         for (x, pixel) in row.as_chunks_mut::<3>().0.iter_mut().enumerate() {
             let around = [(x + 1, y), (x.wrapping_sub(1), y), (x, y + 1), (x, y.wrapping_sub(1))];
-            let own = *pixel;
+            let middle = *pixel;
             let differs =
-                |other: &[u8; 3]| (0..3).any(|i| (i32::from(own[i]) - i32::from(other[i])).abs() > EDGE);
+                |other: &[u8; 3]| (0..3).any(|i| (i32::from(middle[i]) - i32::from(other[i])).abs() > EDGE);
             let neighbours = around.iter().filter(|(x, y)| *x < width && *y < height);
             if neighbours.filter_map(|(x, y)| at(*x, *y)).any(differs) {
                 *pixel = bytes(mean(SAMPLES.map(|place| one_ray(&scene, &tiles, [x, y], place))));
@@ -85,19 +85,19 @@ pub fn draw(m: &Model, d: &Data<Full>, view: &View) -> Picture {
     Picture { width, height, rgb }
 }
 
-fn one_ray(scene: &Scene<'_>, tiles: &Tiles, [x, y]: [usize; 2], [dx, dy]: [f64; 2]) -> Seen {
+fn one_ray(scene: &Scene<'_>, tiles: &Tiles, [x, y]: [usize; 2], [dx, dy]: [f64; 2]) -> Visible {
     let ray = scene.eye.ray(x as f64 + dx, y as f64 + dy);
     let (solids, overlays) = tiles.at(x, y);
-    scene.seen(&ray, solids, overlays)
+    scene.visible(&ray, solids, overlays)
 }
 
-fn mean(all: [Seen; SAMPLES.len()]) -> Seen {
+fn mean(all: [Visible; SAMPLES.len()]) -> Visible {
     let share = 1.0 / all.len() as f64;
-    let sum = |of: fn(&Seen) -> f64| all.iter().map(of).sum::<f64>() * share;
-    Seen { rgb: [sum(|s| s.rgb[0]), sum(|s| s.rgb[1]), sum(|s| s.rgb[2])], opacity: sum(|s| s.opacity) }
+    let sum = |of: fn(&Visible) -> f64| all.iter().map(of).sum::<f64>() * share;
+    Visible { rgb: [sum(|s| s.rgb[0]), sum(|s| s.rgb[1]), sum(|s| s.rgb[2])], opacity: sum(|s| s.opacity) }
 }
 
-fn bytes(seen: Seen) -> [u8; 3] {
+fn bytes(seen: Visible) -> [u8; 3] {
     seen.rgb.map(|c| (255.0 * c.clamp(0.0, 1.0) + 0.5) as u8)
 }
 

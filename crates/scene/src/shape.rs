@@ -201,7 +201,7 @@ mod tests {
         Ray { from: [-5.0, y, z], direction: [1.0, 0.0, 0.0] }
     }
 
-    fn seen(shape: Shape, scale: Vec3, ray: &Ray) -> Option<(f64, Vec3)> {
+    fn first_hit(shape: Shape, scale: Vec3, ray: &Ray) -> Option<(f64, Vec3)> {
         let placed = Placed { shape, position: [0.0; 3], rotation: UPRIGHT, scale };
         placed.hit(ray, 1e-9, 100.0).map(|hit| (hit.distance, hit.normal))
     }
@@ -209,24 +209,24 @@ mod tests {
     #[test]
     fn distances_and_normals_are_those_of_geometry() {
         let left = [-1.0, 0.0, 0.0];
-        assert_eq!(seen(Shape::Box, [2.0, 1.0, 1.0], &along_x(0.5, 0.5)), Some((3.0, left)));
-        assert_eq!(seen(Shape::Ball, [1.0; 3], &along_x(0.0, 0.0)), Some((4.0, left)));
-        assert_eq!(seen(Shape::Ball, [2.0, 1.0, 1.0], &along_x(0.0, 0.0)), Some((3.0, left)));
-        assert_eq!(seen(Shape::Cylinder, [0.5, 0.5, 2.0], &along_x(0.0, 1.9)), Some((4.5, left)));
-        assert_eq!(seen(Shape::Cylinder, [0.5, 0.5, 2.0], &along_x(0.0, 2.1)), None);
-        assert_eq!(seen(Shape::Capsule(1.0), [0.5; 3], &along_x(0.0, 0.9)), Some((4.5, left)));
-        let (t, n) = seen(Shape::Capsule(1.0), [0.5; 3], &along_x(0.0, 1.3)).unwrap();
+        assert_eq!(first_hit(Shape::Box, [2.0, 1.0, 1.0], &along_x(0.5, 0.5)), Some((3.0, left)));
+        assert_eq!(first_hit(Shape::Ball, [1.0; 3], &along_x(0.0, 0.0)), Some((4.0, left)));
+        assert_eq!(first_hit(Shape::Ball, [2.0, 1.0, 1.0], &along_x(0.0, 0.0)), Some((3.0, left)));
+        assert_eq!(first_hit(Shape::Cylinder, [0.5, 0.5, 2.0], &along_x(0.0, 1.9)), Some((4.5, left)));
+        assert_eq!(first_hit(Shape::Cylinder, [0.5, 0.5, 2.0], &along_x(0.0, 2.1)), None);
+        assert_eq!(first_hit(Shape::Capsule(1.0), [0.5; 3], &along_x(0.0, 0.9)), Some((4.5, left)));
+        let (t, n) = first_hit(Shape::Capsule(1.0), [0.5; 3], &along_x(0.0, 1.3)).unwrap();
         assert!((t - 4.6).abs() < 1e-12 && (n[2] - 0.6).abs() < 1e-12, "{t} {n:?}");
-        let (t, n) = seen(Shape::Cone, [1.0, 1.0, 2.0], &along_x(0.0, 1.0)).unwrap();
+        let (t, n) = first_hit(Shape::Cone, [1.0, 1.0, 2.0], &along_x(0.0, 1.0)).unwrap();
         assert!((t - 4.5).abs() < 1e-12 && n[0] < 0.0 && n[2] > 0.0, "{t} {n:?}");
-        assert_eq!(seen(Shape::Cone, [1.0, 1.0, 2.0], &along_x(0.0, 2.1)), None);
+        assert_eq!(first_hit(Shape::Cone, [1.0, 1.0, 2.0], &along_x(0.0, 2.1)), None);
     }
 
     #[test]
     fn the_inside_of_a_shape_is_not_seen() {
         for shape in [Shape::Box, Shape::Ball, Shape::Cylinder, Shape::Capsule(0.5)] {
             let inside = Ray { from: [0.0; 3], direction: [0.6, 0.0, 0.8] };
-            assert!(seen(shape, [1.0; 3], &inside).is_none());
+            assert!(first_hit(shape, [1.0; 3], &inside).is_none());
         }
     }
 

@@ -21,23 +21,23 @@ pub(crate) struct Scene<'s> {
 
 /// A colour in sRGB, times its opacity.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Seen {
+pub(crate) struct Visible {
     pub(crate) rgb: Vec3,
     pub(crate) opacity: f64,
 }
 
 /// Nothing.
-const CLEAR: Seen = Seen { rgb: [0.0; 3], opacity: 0.0 };
+const CLEAR: Visible = Visible { rgb: [0.0; 3], opacity: 0.0 };
 
-impl Seen {
+impl Visible {
     /// This colour with another one behind it.
-    pub(crate) fn over(self, behind: Seen) -> Seen {
+    pub(crate) fn over(self, behind: Visible) -> Visible {
         let rest = 1.0 - self.opacity;
-        Seen { rgb: add_scaled(self.rgb, behind.rgb, rest), opacity: self.opacity + rest * behind.opacity }
+        Visible { rgb: add_scaled(self.rgb, behind.rgb, rest), opacity: self.opacity + rest * behind.opacity }
     }
 
-    fn faint(self, share: f64) -> Seen {
-        Seen { rgb: scale(self.rgb, share), opacity: self.opacity * share }
+    fn faint(self, share: f64) -> Visible {
+        Visible { rgb: scale(self.rgb, share), opacity: self.opacity * share }
     }
 }
 
@@ -60,26 +60,29 @@ const MOST_LAYERS: usize = 16;
 
 impl Scene<'_> {
     /// What a ray from the eye sees, among the solids that its pixel can show.
-    pub(crate) fn seen(&self, ray: &Ray, solids: &[u32], overlays: &[u32]) -> Seen {
-        let shown = self.surfaces(ray, solids, true);
-        let front = overlays.iter().filter_map(|i| self.content.overlays.get(*i as usize));
-        let mut hits: Vec<(Hit, &Solid)> = front
-            .filter_map(|solid| Some((solid.placed.hit(ray, self.near, f64::INFINITY)?, solid)))
-            .collect();
-        hits.sort_by(|a, b| a.0.distance.total_cmp(&b.0.distance));
-        let over = hits.iter().find(|(hit, _)| hit.distance <= shown.1);
-        let hidden = hits.iter().find(|(hit, _)| hit.distance > shown.1);
-        let faint = hidden
-            .filter(|_| over.is_none())
-            .map(|(hit, solid)| self.shade(hit, solid, ray, false).faint(palette::HIDDEN).over(shown.0));
-        let scene = faint.unwrap_or(shown.0);
-        let scene = over.map_or(scene, |(hit, solid)| self.shade(hit, solid, ray, false).over(scene));
+    pub(crate) fn visible(&self, ray: &Ray, solids: &[u32], overlays: &[u32]) -> Visible {
+        let (surfaces, depth) = self.surfaces(ray, solids, true);
+        let drawn = overlays.iter().filter_map(|i| self.content.overlays.get(*i as usize));
+        let hits = drawn.filter_map(|solid| Some((solid.placed.hit(ray, self.near, f64::INFINITY)?, solid)));
+        let nearest = hits.min_by(|a, b| a.0.distance.total_cmp(&b.0.distance));
+        let scene = match &nearest {
+            None => surfaces,
+            Some((hit, solid)) => {
+                let overlay = self.shade(hit, solid, ray, false);
+                let is_in_front = hit.distance <= depth;
+                if is_in_front {
+                    overlay.over(surfaces)
+                } else {
+                    overlay.faint(palette::HIDDEN).over(surfaces)
+                }
+            }
+        };
         scene.over(self.sky(ray))
     }
 
     /// What a ray sees of surfaces, and the distance of the first one that is not transparent.
-    fn surfaces(&self, ray: &Ray, solids: &[u32], may_mirror: bool) -> (Seen, f64) {
-        let (mut seen, mut from, mut opaque) = (CLEAR, self.near, f64::INFINITY);
+    fn surfaces(&self, ray: &Ray, solids: &[u32], may_mirror: bool) -> (Visible, f64) {
+        let (mut visible, mut from, mut opaque) = (CLEAR, self.near, f64::INFINITY);
         for _ in 0..MOST_LAYERS {
             let all = solids.iter().filter_map(|i| self.content.solids.get(*i as usize));
             let mut nearest: Option<(Hit, &Solid)> = None;
@@ -94,17 +97,17 @@ impl Scene<'_> {
             if opaque.is_infinite() && (solid.color[3] >= 1.0 || matches!(solid.placed.shape, Shape::Plane)) {
                 opaque = hit.distance;
             }
-            seen = seen.over(self.shade(&hit, solid, ray, may_mirror));
-            if seen.opacity > 0.999 {
+            visible = visible.over(self.shade(&hit, solid, ray, may_mirror));
+            if visible.opacity > 0.999 {
                 break;
             }
             from = hit.distance * (1.0 + 1e-12) + 1e-9 * self.near;
         }
-        (seen, opaque)
+        (visible, opaque)
     }
 
     /// The colour of a solid where a ray meets it.
-    fn shade(&self, hit: &Hit, solid: &Solid, ray: &Ray, may_mirror: bool) -> Seen {
+    fn shade(&self, hit: &Hit, solid: &Solid, ray: &Ray, may_mirror: bool) -> Visible {
         let [r, g, b, mut opacity] = solid.color;
         let mut base = linear([r, g, b]);
         if let Some((id, from)) = solid.material.texture
@@ -144,7 +147,7 @@ impl Scene<'_> {
             let (mirrored, _) = self.surfaces(&Ray { from, direction: away }, &all, false);
             rgb = [0, 1, 2].map(|i| (rgb[i] + material.reflectance * mirrored.rgb[i]).min(1.0));
         }
-        Seen { rgb: scale(rgb.map(|c| c.min(1.0)), opacity), opacity }
+        Visible { rgb: scale(rgb.map(|c| c.min(1.0)), opacity), opacity }
     }
 
     /// The colour of a floor with its lines.
@@ -169,13 +172,13 @@ impl Scene<'_> {
     }
 
     /// The sky box, or the background of the page.
-    fn sky(&self, ray: &Ray) -> Seen {
+    fn sky(&self, ray: &Ray) -> Visible {
         let [r, g, b, _] = palette::BACKGROUND;
         let Some(sky) = self.m.textures.iter().find(|t| t.kind == texture::SKY_KIND) else {
-            return Seen { rgb: [r, g, b], opacity: 1.0 };
+            return Visible { rgb: [r, g, b], opacity: 1.0 };
         };
         let [x, y, z] = ray.direction;
-        Seen { rgb: texture::cube(sky, [x, z, -y]), opacity: 1.0 }
+        Visible { rgb: texture::cube(sky, [x, z, -y]), opacity: 1.0 }
     }
 }
 

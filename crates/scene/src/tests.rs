@@ -103,8 +103,8 @@ fn a_floor_mirrors_what_is_above_it() {
         ..View::default()
     };
     // The mirror image is as far below the floor as the ball is above it.
-    let [dull, bright] = [0.0, 0.5].map(|r| at(&picture(&floor(r), &view), 45, 60));
-    assert!(bright[0] > dull[0] + 30 && bright[1] <= dull[1] + 12, "{dull:?} {bright:?}");
+    let [rough, bright] = [0.0, 0.5].map(|r| at(&picture(&floor(r), &view), 45, 60));
+    assert!(bright[0] > rough[0] + 30 && bright[1] <= rough[1] + 12, "{rough:?} {bright:?}");
 }
 
 #[test]

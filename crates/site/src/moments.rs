@@ -18,8 +18,8 @@ use std::ops::ControlFlow;
 const WIDTH: usize = 800;
 /// The height of a picture is not above this, pixels.
 const MOST_HIGH: f64 = 600.0;
-/// Contacts that are told one by one.
-const MOST_TOLD: usize = 8;
+/// Contacts that are listed one by one.
+const MOST_EVENTS: usize = 8;
 /// The points of the path of a site.
 const TRAIL_POINTS: usize = 300;
 
@@ -29,23 +29,23 @@ pub(crate) struct Moments {
     /// The pictures by their names in the site.
     pub(crate) files: BTreeMap<String, Vec<u8>>,
     /// The name of each picture, and what it shows.
-    shown: Vec<(String, String)>,
+    pictures: Vec<(String, String)>,
     /// What happens, in sentences.
-    told: Vec<String>,
+    events: Vec<String>,
 }
 
 impl Moments {
     /// The name of the picture of the start, from which the element of a page starts.
     pub(crate) fn start(&self) -> Option<&str> {
-        self.shown.first().map(|(name, _)| name.as_str())
+        self.pictures.first().map(|(name, _)| name.as_str())
     }
 
     /// The pictures and the sentences as HTML. `address` gives the address of a picture from its page.
     pub(crate) fn html(&self, title: &str, address: impl Fn(&str) -> String) -> String {
         let mut out = String::new();
-        if !self.shown.is_empty() {
+        if !self.pictures.is_empty() {
             out.push_str("<div class=\"moments\">");
-            for (name, caption) in &self.shown {
+            for (name, caption) in &self.pictures {
                 let described =
                     if title.is_empty() { caption.clone() } else { format!("{title}: {caption}") };
                 let _ = write!(
@@ -58,10 +58,10 @@ impl Moments {
             }
             out.push_str("</div>");
         }
-        if !self.told.is_empty() {
+        if !self.events.is_empty() {
             let sentences: String =
-                self.told.iter().map(|text| format!("<li>{}</li>", escape(text))).collect();
-            let _ = write!(out, "<ul class=\"told\">{sentences}</ul>");
+                self.events.iter().map(|text| format!("<li>{}</li>", escape(text))).collect();
+            let _ = write!(out, "<ul class=\"events\">{sentences}</ul>");
         }
         out
     }
@@ -70,9 +70,9 @@ impl Moments {
         let Some(file) = picture.to_jpeg() else { return };
         let name = format!("pictures/{}.jpg", short_hash(&[&file]));
         // Where nothing has moved, one picture is enough.
-        if self.shown.last().is_none_or(|(last, _)| *last != name) {
+        if self.pictures.last().is_none_or(|(last, _)| *last != name) {
             self.files.insert(name.clone(), file);
-            self.shown.push((name, caption));
+            self.pictures.push((name, caption));
         }
     }
 }
@@ -80,7 +80,7 @@ impl Moments {
 /// How a lab shows its scene.
 fn view_of(lab: &Lab) -> View {
     let mut overlays = Overlays::default();
-    for (name, shown) in &lab.overlays {
+    for (name, is_visible) in &lab.overlays {
         let overlay = match name.as_str() {
             "frames" => &mut overlays.frames,
             "joints" => &mut overlays.joints,
@@ -92,7 +92,7 @@ fn view_of(lab: &Lab) -> View {
             "shadows" => &mut overlays.shadows,
             _ => continue,
         };
-        *overlay = *shown;
+        *overlay = *is_visible;
     }
     let camera = &lab.camera;
     View {
@@ -149,7 +149,7 @@ impl DrawnRun<'_> {
     /// Plays to the end: draws where two things first touch, and the end.
     fn play(&mut self) -> Result<(), labspec::Error> {
         let mut first = true;
-        let mut untold = 0;
+        let mut further = 0;
         // What touches in the first step does so at the start.
         let steps = self.player.timestep();
         let start = self.player.time() + 1.5 * steps;
@@ -163,16 +163,18 @@ impl DrawnRun<'_> {
             if std::mem::take(&mut first) && time < self.end - steps {
                 self.draw(format!("at {at} s, when {a} touches {b}"));
             }
-            match self.moments.told.len() {
-                n if n < MOST_TOLD => self.moments.told.push(capital(&format!("{a} touches {b} at {at} s."))),
-                _ => untold += 1,
+            match self.moments.events.len() {
+                n if n < MOST_EVENTS => {
+                    self.moments.events.push(capital(&format!("{a} touches {b} at {at} s.")))
+                }
+                _ => further += 1,
             }
         }
-        if untold > 0 {
-            let s = if untold == 1 { "" } else { "s" };
+        if further > 0 {
+            let s = if further == 1 { "" } else { "s" };
             self.moments
-                .told
-                .push(format!("{untold} more contact{s} follow{}.", if untold == 1 { "s" } else { "" }));
+                .events
+                .push(format!("{further} more contact{s} follow{}.", if further == 1 { "s" } else { "" }));
         }
         if self.player.time() > start {
             self.draw(format!("after {} s", seconds(self.player.time())));
@@ -231,11 +233,11 @@ fn touching_pairs(data: &Data<Planned>) -> Vec<(usize, usize)> {
 
 /// The name of a geom for readers: its own, that of its body, or its number.
 fn name_of(model: &Model, geom: usize) -> String {
-    let own = model.names.of_kind(Obj::Geom).get(geom).filter(|name| !name.is_empty());
+    let named = model.names.of_kind(Obj::Geom).get(geom).filter(|name| !name.is_empty());
     let body =
         model.geom_bodyid.get(geom).and_then(|body| usize::try_from(*body).ok()).filter(|body| *body > 0);
     let of_body = || model.names.of_kind(Obj::Body).get(body?).filter(|name| !name.is_empty());
-    own.or_else(of_body).map_or_else(|| format!("geom {geom}"), |name| name.replace('_', " "))
+    named.or_else(of_body).map_or_else(|| format!("geom {geom}"), |name| name.replace('_', " "))
 }
 
 /// Words of what stays where it is: the second name of a sentence.
@@ -273,7 +275,7 @@ mod tests {
     }
 
     fn captions(moments: &Moments) -> Vec<&str> {
-        moments.shown.iter().map(|(_, caption)| caption.as_str()).collect()
+        moments.pictures.iter().map(|(_, caption)| caption.as_str()).collect()
     }
 
     const BALL: &str = "<body name='the_ball' pos='0 0 1'><freejoint/><geom size='.1'/></body>";
@@ -291,7 +293,7 @@ mod tests {
             captions(&run),
             ["at the start", "at 0.43 s, when the ball touches floor", "after 1.00 s"]
         );
-        assert_eq!(run.told[0], "The ball touches floor at 0.43 s.");
+        assert_eq!(run.events[0], "The ball touches floor at 0.43 s.");
         assert_eq!(run.files.len(), 3);
         let html = run.html("Fall", |name| format!("../{name}"));
         assert!(
@@ -301,11 +303,11 @@ mod tests {
     }
 
     #[test]
-    fn what_rests_from_the_start_is_not_told_and_needs_one_picture() {
+    fn what_rests_from_the_start_is_no_event_and_needs_one_picture() {
         let run = run_of(&lab(&format!("{FLOOR}<geom size='.1' pos='0 0 .1'/>"), ""), 0.5);
-        assert_eq!((captions(&run), run.told.len()), (vec!["at the start"], 0));
+        assert_eq!((captions(&run), run.events.len()), (vec!["at the start"], 0));
         let run = run_of(&lab(&format!("{FLOOR}{}", BALL.replace("0 0 1", "0 0 .0995")), ""), 0.2);
-        assert_eq!(run.told.len(), 0, "{:?}", run.told);
+        assert_eq!(run.events.len(), 0, "{:?}", run.events);
     }
 
     #[test]
@@ -319,16 +321,16 @@ mod tests {
             })
             .collect();
         let run = run_of(&lab(&format!("{}{balls}", FLOOR.replace("2 2 .1", "0 0 .1")), ""), 1.0);
-        assert!(run.told.len() == MOST_TOLD + 1, "{:?}", run.told);
-        assert!(run.told[MOST_TOLD].ends_with(" more contacts follow."), "{:?}", run.told);
+        assert!(run.events.len() == MOST_EVENTS + 1, "{:?}", run.events);
+        assert!(run.events[MOST_EVENTS].ends_with(" more contacts follow."), "{:?}", run.events);
     }
 
     #[test]
     fn the_path_of_a_site_is_drawn() {
         let ball = BALL.replace("<geom", "<site name='s'/><geom");
         let [plain, traced] = ["", ", \"trail\": \"s\""].map(|trail| run_of(&lab(&ball, trail), 0.3));
-        assert_eq!(plain.shown[0], traced.shown[0]);
-        assert_ne!(plain.shown[1], traced.shown[1]);
+        assert_eq!(plain.pictures[0], traced.pictures[0]);
+        assert_ne!(plain.pictures[1], traced.pictures[1]);
     }
 
     #[test]
