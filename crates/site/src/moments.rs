@@ -148,33 +148,39 @@ impl DrawnRun<'_> {
 
     /// Plays to the end: draws where two things first touch, and the end.
     fn play(&mut self) -> Result<(), labspec::Error> {
-        let mut first = true;
+        let mut is_first = true;
         let mut further = 0;
         // What touches in the first step does so at the start.
-        let steps = self.player.timestep();
-        let start = self.player.time() + 1.5 * steps;
-        while let Some((a, b)) = self.next_contact()? {
+        let step = self.player.timestep();
+        let start = self.player.time() + 1.5 * step;
+        loop {
+            let contacts = self.next_contacts()?;
             let time = self.player.time();
+            if contacts.is_empty() {
+                break;
+            }
             if time <= start {
                 continue;
             }
-            let [a, b] = ordered([a, b].map(|geom| name_of(self.player.model(), geom)));
             let at = seconds(time);
-            if std::mem::take(&mut first) && time < self.end - steps {
+            let names = |geom| name_of(self.player.model(), geom);
+            let pairs: Vec<[String; 2]> =
+                contacts.into_iter().map(|(a, b)| ordered([names(a), names(b)])).collect();
+            if let Some([a, b]) = pairs.first()
+                && std::mem::take(&mut is_first)
+                && time < self.end - step
+            {
                 self.draw(format!("at {at} s, when {a} touches {b}"));
             }
-            match self.moments.events.len() {
-                n if n < MOST_EVENTS => {
-                    self.moments.events.push(capital(&format!("{a} touches {b} at {at} s.")))
-                }
-                _ => further += 1,
-            }
+            let sentences = pairs.iter().map(|[a, b]| capital(&format!("{a} touches {b} at {at} s.")));
+            let room = MOST_EVENTS - self.moments.events.len();
+            further += pairs.len().saturating_sub(room);
+            self.moments.events.extend(sentences.take(room));
         }
-        if further > 0 {
-            let s = if further == 1 { "" } else { "s" };
-            self.moments
-                .events
-                .push(format!("{further} more contact{s} follow{}.", if further == 1 { "s" } else { "" }));
+        match further {
+            0 => {}
+            1 => self.moments.events.push("1 more contact follows.".into()),
+            n => self.moments.events.push(format!("{n} more contacts follow.")),
         }
         if self.player.time() > start {
             self.draw(format!("after {} s", seconds(self.player.time())));
@@ -182,32 +188,33 @@ impl DrawnRun<'_> {
         Ok(())
     }
 
-    /// Plays to the next step in which two geoms touch that did not touch before. `None`: there is none up to the end.
-    fn next_contact(&mut self) -> Result<Option<(usize, usize)>, labspec::Error> {
+    /// Plays to the next step in which geoms touch that did not touch before, and returns their pairs. None: there are none up to the end, or
+    /// the time went back, because the lab broke down or started again.
+    fn next_contacts(&mut self) -> Result<Vec<(usize, usize)>, labspec::Error> {
         let most = self.traced.map_or(usize::MAX, |_| self.steps_between_points());
-        loop {
-            let before = self.player.time();
-            if before >= self.end || self.player.is_over() {
-                return Ok(None);
-            }
-            let mut found = None;
+        let mut last = self.player.time();
+        while last < self.end && !self.player.is_over() {
+            let before = last;
+            let mut new = Vec::new();
             let touching = &mut self.touching;
             let mut each = |data: &Data<Planned>| {
+                if data.time() <= last {
+                    last = f64::INFINITY;
+                    return ControlFlow::Break(());
+                }
+                last = data.time();
                 let now = touching_pairs(data);
-                found = now.iter().copied().find(|pair| touching.binary_search(pair).is_err());
+                new = now.iter().copied().filter(|pair| touching.binary_search(pair).is_err()).collect();
                 *touching = now;
-                if found.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+                if new.is_empty() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
             };
             self.player.play_while(self.end, most, |data, _| each(data))?;
             self.add_to_trail();
-            if found.is_some() {
-                return Ok(found);
-            }
-            // A program may hold the time.
-            if self.player.time() <= before {
-                return Ok(None);
+            if !new.is_empty() || last <= before {
+                return Ok(new);
             }
         }
+        Ok(Vec::new())
     }
 
     fn steps_between_points(&self) -> usize {
@@ -323,6 +330,22 @@ mod tests {
         let run = run_of(&lab(&format!("{}{balls}", FLOOR.replace("2 2 .1", "0 0 .1")), ""), 1.0);
         assert!(run.events.len() == MOST_EVENTS + 1, "{:?}", run.events);
         assert!(run.events[MOST_EVENTS].ends_with(" more contacts follow."), "{:?}", run.events);
+    }
+
+    #[test]
+    fn what_touches_in_one_step_is_listed_together() {
+        let balls = ["-.5", ".5"]
+            .map(|x| BALL.replace("the_ball", &format!("ball{x}")).replace("0 0 1", &format!("{x} 0 1")));
+        let run = run_of(&lab(&format!("{FLOOR}{}", balls.concat()), ""), 1.0);
+        assert_eq!(run.events, ["Ball-.5 touches floor at 0.43 s.", "Ball.5 touches floor at 0.43 s."]);
+    }
+
+    #[test]
+    fn a_lab_that_starts_again_ends() {
+        // The position becomes NaN, and the engine resets the data, again and again.
+        let breaks = ", \"controller\": \"if (data.time > 0.5) data.qpos[2] = 0 / 0\"";
+        let run = run_of(&lab(&format!("{FLOOR}{BALL}"), breaks), 3.0);
+        assert_eq!(run.events, ["The ball touches floor at 0.43 s."]);
     }
 
     #[test]
