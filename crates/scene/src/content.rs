@@ -1,7 +1,7 @@
 //! The solids of a scene: geoms and tendons, then what is drawn over them.
 
 use crate::View;
-use crate::eye::{Eye, fields, pose};
+use crate::eye::{Eye, pose};
 use crate::mesh::Triangles;
 use crate::overlay::push_overlays;
 use crate::palette::{self, Color};
@@ -235,10 +235,9 @@ fn is_mirror(solid: &Solid, eye: &Eye) -> bool {
 }
 
 fn push_geoms(m: &Model, d: &Data<Full>, eye: &Eye, solids: &mut Vec<Solid>) {
-    let f = fields(d);
     let mut has_mirror = false;
     for (id, kind) in m.geom_type.iter().copied().enumerate() {
-        let Some(place) = pose(&f.geom_xpos, &f.geom_xmat, id).filter(|_| is_visible(&m.geom_group, id))
+        let Some(place) = pose(&d.geom_xpos, &d.geom_xmat, id).filter(|_| is_visible(&m.geom_group, id))
         else {
             continue;
         };
@@ -277,9 +276,8 @@ fn geom_solid(m: &Model, id: usize, kind: i32, (position, rotation): (Vec3, [f64
 
 /// A site, as a solid.
 pub(crate) fn site_solid(m: &Model, d: &Data<Full>, id: usize) -> Option<Solid> {
-    let f = fields(d);
     let (position, rotation) =
-        pose(&f.site_xpos, &f.site_xmat, id).filter(|_| is_visible(&m.site_group, id))?;
+        pose(&d.site_xpos, &d.site_xmat, id).filter(|_| is_visible(&m.site_group, id))?;
     let kind = m.site_type.get(id).copied()?;
     let size = vector(&m.site_size, id);
     let mat = id_of(&m.site_matid, id);
@@ -322,8 +320,7 @@ const ARC_PIECES: usize = 12;
 
 /// Points of the shortest arc from `a` to `b` around a geom: a great circle of a sphere, a helix of a cylinder.
 fn wrap_arc(m: &Model, d: &Data<Full>, id: usize, a: Vec3, b: Vec3) -> Vec<Vec3> {
-    let f = fields(d);
-    let Some((center, rotation)) = pose(&f.geom_xpos, &f.geom_xmat, id) else { return vec![a, b] };
+    let Some((center, rotation)) = pose(&d.geom_xpos, &d.geom_xmat, id) else { return vec![a, b] };
     let is_sphere = m.geom_type.get(id) == Some(&geom::SPHERE);
     let split = |p: Vec3| {
         let [x, y, z] = mat_t_mul_vec(&rotation, sub(p, center));
@@ -346,10 +343,9 @@ fn wrap_arc(m: &Model, d: &Data<Full>, id: usize, a: Vec3, b: Vec3) -> Vec<Vec3>
 }
 
 fn push_tendons(m: &Model, d: &Data<Full>, solids: &mut Vec<Solid>) {
-    let f = fields(d);
     // Each row of the fields holds two points.
-    let on = |i: usize| f.wrap_obj.get(i).copied().unwrap_or(PULLEY);
-    for (id, (first, count)) in f.ten_wrapadr.iter().zip(&f.ten_wrapnum).enumerate() {
+    let on = |i: usize| d.wrap_obj.get(i).copied().unwrap_or(PULLEY);
+    for (id, (first, count)) in d.ten_wrapadr.iter().zip(&d.ten_wrapnum).enumerate() {
         let radius = m.tendon_width.get(id).copied().unwrap_or(0.0);
         let color = rows::<4>(&m.tendon_rgba).get(id).copied().unwrap_or(NO_COLOR);
         let (Ok(first), Ok(count)) = (usize::try_from(*first), usize::try_from(*count)) else { continue };
@@ -361,7 +357,7 @@ fn push_tendons(m: &Model, d: &Data<Full>, solids: &mut Vec<Solid>) {
             if from == PULLEY || to == PULLEY {
                 continue;
             }
-            let [a, b] = [vector(&f.wrap_xpos, i), vector(&f.wrap_xpos, i + 1)];
+            let [a, b] = [vector(&d.wrap_xpos, i), vector(&d.wrap_xpos, i + 1)];
             let path = match usize::try_from(from) {
                 Ok(geom) if from == to => wrap_arc(m, d, geom, a, b),
                 _ => vec![a, b],

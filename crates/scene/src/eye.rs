@@ -1,7 +1,7 @@
 //! The camera: the ray of a pixel, and the pixel of a point.
 
+use labspec_core::Model;
 use labspec_core::math::{Vec3, add_scaled, dot, normalize, rows, sub};
-use labspec_core::{Data, Fields, Full, Model};
 
 /// Where a scene is seen from, as the lab format says it: the direction from the target to the camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -133,11 +133,6 @@ impl Eye {
 /// The position and the orientation of row `id` of two fields of the data.
 pub(crate) fn pose(positions: &[f64], orientations: &[f64], id: usize) -> Option<(Vec3, [f64; 9])> {
     Some((*rows::<3>(positions).get(id)?, *rows::<9>(orientations).get(id)?))
-}
-
-/// The fields of the data.
-pub(crate) fn fields(data: &Data<Full>) -> &Fields {
-    data
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! The lights of a scene, and what arrives at a surface.
 
 use crate::content::Solid;
-use crate::eye::{Eye, Ray, fields};
+use crate::eye::{Eye, Ray};
 use crate::palette;
 use crate::shape::Hit;
 use labspec_core::math::{Vec3, add, add_scaled, dot, norm, normalize, rows, scale, sub};
@@ -67,15 +67,14 @@ fn sun() -> Light {
 }
 
 fn light_of(m: &Model, d: &Data<Full>, id: usize) -> Option<Light> {
-    let f = fields(d);
     let kind = m.light_type.get(id).copied().filter(|kind| *kind <= POINT)?;
     let row = |list: &[f64]| rows::<3>(list).get(id).copied();
     let number = |list: &[f64]| list.get(id).copied().unwrap_or(0.0);
-    let direction = normalize(row(&f.light_xdir)?).0;
+    let direction = normalize(row(&d.light_xdir)?).0;
     let is_directional = kind == DIRECTIONAL;
     let cutoff = libm::cos(number(&m.light_cutoff).to_radians());
     m.light_active.get(id).copied().unwrap_or(false).then_some(Light {
-        position: if is_directional { scale(direction, -1.0) } else { row(&f.light_xpos)? },
+        position: if is_directional { scale(direction, -1.0) } else { row(&d.light_xpos)? },
         is_directional,
         direction,
         cutoff: (kind == SPOT).then_some(cutoff),

@@ -42,6 +42,20 @@ fn index(list: &[i32], at: usize) -> usize {
     list.get(at).and_then(|i| usize::try_from(*i).ok()).unwrap_or(0)
 }
 
+/// The most points of a height field that are drawn along one side: more than a picture has pixels for.
+const MOST_POINTS: usize = 400;
+
+/// The points of one side of a height field that are drawn: at equal distances, with both ends.
+fn drawn_points(count: usize) -> Vec<usize> {
+    let drawn = count.min(MOST_POINTS);
+    (0..drawn).map(|i| i * (count - 1) / (drawn - 1)).collect()
+}
+
+/// The place of a point of a row, from 0 to 1.
+fn share(i: usize, count: usize) -> f64 {
+    i as f64 / (count - 1) as f64
+}
+
 impl Triangles {
     fn new(mut triangles: Vec<[Corner; 3]>) -> Triangles {
         triangles.retain(|corners| corners.iter().all(|c| c.position.iter().all(|x| x.is_finite())));
@@ -70,27 +84,28 @@ impl Triangles {
         Triangles::new(faces.map(|f| [corner(f, 0), corner(f, 1), corner(f, 2)]).collect())
     }
 
-    /// A height field of a model: its surface with smooth normals, its four sides and its base.
+    /// A height field of a model: its surface with smooth normals, its four sides and its base. Of a large one, not all points are drawn.
     pub(crate) fn of_height_field(m: &Model, id: usize) -> Triangles {
-        let (rows, columns) = (index(&m.hfield_nrow, id), index(&m.hfield_ncol, id));
-        if rows < 2 || columns < 2 {
+        let count = [index(&m.hfield_nrow, id), index(&m.hfield_ncol, id)];
+        if count[0] < 2 || count[1] < 2 {
             return Triangles::default();
         }
         let first = index(&m.hfield_adr, id);
         let [x, y, z, base] = row(&m.hfield_size, id);
+        let drawn = count.map(drawn_points);
+        let [rows, columns] = [drawn[0].len(), drawn[1].len()];
         let point = |r: usize, c: usize| {
-            let height = m.hfield_data.get(first + r * columns + c).copied().unwrap_or(0.0);
-            let across = |i: usize, n: usize| 2.0 * i as f64 / (n - 1) as f64 - 1.0;
-            [x * across(c, columns), y * across(r, rows), z * height]
+            let (r, c) = (drawn[0][r], drawn[1][c]);
+            let height = m.hfield_data.get(first + r * count[1] + c).copied().unwrap_or(0.0);
+            [x * (2.0 * share(c, count[1]) - 1.0), y * (2.0 * share(r, count[0]) - 1.0), z * height]
         };
         let corner = |r: usize, c: usize| {
             let across = sub(point(r, (c + 1).min(columns - 1)), point(r, c.saturating_sub(1)));
             let along = sub(point((r + 1).min(rows - 1), c), point(r.saturating_sub(1), c));
-            let share = |i: usize, n: usize| i as f64 / (n - 1) as f64;
             Corner {
                 position: point(r, c),
                 normal: normalize(cross(across, along)).0,
-                uv: [share(c, columns), share(r, rows)],
+                uv: [share(drawn[1][c], count[1]), share(drawn[0][r], count[0])],
             }
         };
         let mut triangles = Vec::new();
@@ -262,5 +277,13 @@ mod tests {
         assert_eq!(down(1.5, 0.0), None);
         let up = triangles.hit([0.1, 0.2, -5.0], [0.0, 0.0, 1.0], 0.0, 100.0).unwrap();
         assert_eq!((up.0, up.1), (4.8, [0.0, 0.0, -1.0]));
+    }
+
+    #[test]
+    fn a_large_height_field_keeps_its_ends() {
+        assert_eq!(drawn_points(3), [0, 1, 2]);
+        let drawn = drawn_points(5000);
+        assert_eq!((drawn.len(), drawn[0], drawn[MOST_POINTS - 1]), (MOST_POINTS, 0, 4999));
+        assert!(drawn.windows(2).all(|pair| pair[0] < pair[1]));
     }
 }

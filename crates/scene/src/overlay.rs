@@ -2,7 +2,7 @@
 
 use crate::View;
 use crate::content::{Content, Material, PLAIN, Pattern, Solid, rotation_to_z, site_solid, tube};
-use crate::eye::{Eye, fields, pose};
+use crate::eye::{Eye, pose};
 use crate::palette::{self, Color};
 use crate::shape::{Placed, Shape};
 use labspec_core::math::{Vec3, add, add_scaled, column, mat_mul_vec, norm, normalize, rows, scale};
@@ -101,8 +101,8 @@ pub(crate) fn push_overlays(m: &Model, d: &Data<Full>, view: &View, eye: &Eye, c
 }
 
 fn push_frames(d: &Data<Full>, overlay: &mut Overlay<'_>) {
-    let (f, size) = (fields(d), overlay.size);
-    for (origin, rotation) in (1..rows::<3>(&f.xpos).len()).filter_map(|body| pose(&f.xpos, &f.xmat, body)) {
+    let size = overlay.size;
+    for (origin, rotation) in (1..rows::<3>(&d.xpos).len()).filter_map(|body| pose(&d.xpos, &d.xmat, body)) {
         for (axis, color) in palette::AXES.into_iter().enumerate() {
             overlay.arrow(origin, scale(column(&rotation, axis), 1.3 * size), 0.035 * size, color);
         }
@@ -111,10 +111,10 @@ fn push_frames(d: &Data<Full>, overlay: &mut Overlay<'_>) {
 
 /// A hinge is a drum with an arrow along its axis, a slide a block with an arrow, a ball joint a ball, a free joint a cube.
 fn push_joints(m: &Model, d: &Data<Full>, overlay: &mut Overlay<'_>) {
-    let (f, size, color) = (fields(d), overlay.size, palette::JOINT);
+    let (size, color) = (overlay.size, palette::JOINT);
     let s = 0.16 * size;
     for (id, kind) in m.jnt_type.iter().copied().enumerate() {
-        let (Some(anchor), Some(axis)) = (rows::<3>(&f.xanchor).get(id), rows::<3>(&f.xaxis).get(id)) else {
+        let (Some(anchor), Some(axis)) = (rows::<3>(&d.xanchor).get(id), rows::<3>(&d.xaxis).get(id)) else {
             continue;
         };
         let along = rotation_to_z(*axis);
@@ -122,7 +122,7 @@ fn push_joints(m: &Model, d: &Data<Full>, overlay: &mut Overlay<'_>) {
             joint::BALL => overlay.solid(Shape::Ball, *anchor, UPRIGHT, [1.3 * s; 3], color),
             joint::FREE => {
                 let body = m.jnt_bodyid.get(id).and_then(|b| usize::try_from(*b).ok()).unwrap_or(0);
-                let rotation = rows::<9>(&f.xmat).get(body).copied().unwrap_or(UPRIGHT);
+                let rotation = rows::<9>(&d.xmat).get(body).copied().unwrap_or(UPRIGHT);
                 overlay.solid(Shape::Box, *anchor, rotation, [s; 3], color);
             }
             _ => {
@@ -139,7 +139,7 @@ fn push_joints(m: &Model, d: &Data<Full>, overlay: &mut Overlay<'_>) {
 
 /// A checkered ball at the centre of mass of every body, a larger one at that of a tree of several bodies.
 fn push_centres(m: &Model, d: &Data<Full>, overlay: &mut Overlay<'_>) {
-    let (f, size) = (fields(d), overlay.size);
+    let size = overlay.size;
     let mut ball = |center: Option<&Vec3>, radius: f64| {
         let Some(center) = center else { return };
         let placed = Placed { shape: Shape::Ball, position: *center, rotation: UPRIGHT, scale: [radius; 3] };
@@ -147,19 +147,19 @@ fn push_centres(m: &Model, d: &Data<Full>, overlay: &mut Overlay<'_>) {
     };
     for (body, (mass, tree)) in m.body_mass.iter().zip(&m.body_subtreemass).enumerate().skip(1) {
         if *mass > 0.0 {
-            ball(rows::<3>(&f.xipos).get(body), 0.18 * size);
+            ball(rows::<3>(&d.xipos).get(body), 0.18 * size);
         }
         if m.body_parentid.get(body) == Some(&0) && tree > mass {
-            ball(rows::<3>(&f.subtree_com).get(body), 0.28 * size);
+            ball(rows::<3>(&d.subtree_com).get(body), 0.28 * size);
         }
     }
 }
 
 /// A camera is a small box, with the outline of its picture in front of it.
 fn push_cameras(m: &Model, d: &Data<Full>, overlay: &mut Overlay<'_>) {
-    let (f, size, color) = (fields(d), overlay.size, palette::CAMERA);
+    let (size, color) = (overlay.size, palette::CAMERA);
     for (id, fovy) in m.cam_fovy.iter().copied().enumerate() {
-        let Some((position, rotation)) = pose(&f.cam_xpos, &f.cam_xmat, id) else { continue };
+        let Some((position, rotation)) = pose(&d.cam_xpos, &d.cam_xmat, id) else { continue };
         let is_orthographic = m.cam_projection.get(id) == Some(&1);
         let depth = 1.5 * size;
         let height = if is_orthographic { fovy / 2.0 } else { depth * libm::tan(fovy.to_radians() / 2.0) };
@@ -185,7 +185,7 @@ fn push_cameras(m: &Model, d: &Data<Full>, overlay: &mut Overlay<'_>) {
 /// The contacts as discs, and their forces on the second geom as arrows.
 fn push_contacts(m: &Model, d: &Data<Full>, view: &View, overlay: &mut Overlay<'_>) {
     let size = overlay.size;
-    for contact in fields(d).contact.iter().filter(|c| c.exclude == 0) {
+    for contact in d.contact.iter().filter(|c| c.exclude == 0) {
         let axes = rows::<3>(&contact.frame);
         if view.overlays.contacts
             && let Some(normal) = axes.first()

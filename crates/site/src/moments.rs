@@ -173,9 +173,9 @@ impl DrawnRun<'_> {
                 self.draw(format!("at {at} s, when {a} touches {b}"));
             }
             let sentences = pairs.iter().map(|[a, b]| capital(&format!("{a} touches {b} at {at} s.")));
-            let room = MOST_EVENTS - self.moments.events.len();
-            further += pairs.len().saturating_sub(room);
-            self.moments.events.extend(sentences.take(room));
+            let available = MOST_EVENTS - self.moments.events.len();
+            further += pairs.len().saturating_sub(available);
+            self.moments.events.extend(sentences.take(available));
         }
         match further {
             0 => {}
