@@ -1,8 +1,8 @@
-// From navigation to the first picture of a lab, with its parts, in Chromium: `node bench/visible.mjs [SCRIPT…] [--runs=9]`. The pages are the first labs of
-// the example lessons with the one file. Every run has a new browser context, so that nothing is cached; several scripts take turns. Medians are
+// From navigation to the first picture of a lab, with its parts, in Chromium: `node bench/visible.mjs [SCRIPT…] [--site=FOLDER] [--runs=9]`. The pages are the
+// first labs of the example lessons with the one file, or those of a site that `labspec build` has written into a folder of this repository. Every run has a new browser context, so that nothing is cached; several scripts take turns. Medians are
 // printed. The parts overlap: each is the time at which something is done, in ms after the navigation.
 import { readFileSync, readdirSync } from "node:fs";
-import { join } from "node:path";
+import { join, relative, resolve } from "node:path";
 import { launch, pageOf, repository, serve } from "../test/page/site.mjs";
 
 const given = process.argv.slice(2);
@@ -34,8 +34,10 @@ function watch() {
   };
   const wait = () => {
     const lab = document.querySelector("sim-lab")?.shadowRoot;
-    if (lab?.querySelector(".outline, article.lab:not(.loading)")) mark("outline on the page");
-    else requestAnimationFrame(wait);
+    if (lab?.querySelector("article.lab")) mark("outline on the page");
+    const poster = lab?.querySelector(".poster");
+    if (poster?.complete && !poster.hidden) mark("poster on the page");
+    if (marks["lab on the page"] === undefined) requestAnimationFrame(wait);
   };
   requestAnimationFrame(wait);
   addEventListener("lab-ready", () => {
@@ -59,19 +61,22 @@ const lessons = readdirSync(join(repository, "specs/lessons")).filter((name) => 
 const labs = lessons.flatMap((name) => /^```lab simlab\n([^]*?)\n```$/m.exec(readFileSync(join(repository, "specs/lessons", name), "utf8"))?.[1] ?? []);
 const used = (text) => Object.entries(models).filter(([name]) => text.includes(`"${name}"`));
 const element = (text) => `<sim-lab><script type="application/json">${text.replaceAll("</", "<\\/")}</script>${used(text).map(([name, xml]) => `<script type="model/mjcf" data-name="${name}">${xml}</script>`).join("")}</sim-lab>`;
+const site = given.find((argument) => argument.startsWith("--site="))?.slice(7);
+const lessonsOfSite = site === undefined ? [] : readdirSync(site).filter((name) => name.endsWith(".html") && readFileSync(join(site, name), "utf8").includes("<sim-lab id=\"lab-1\""));
 const pages = Object.fromEntries(labs.flatMap((text, i) => scripts.map((script, j) => [`/${i}-${j}.html`, pageOf(element(text), { script })])));
 const server = await serve(pages);
 const browser = await launch();
 const found = scripts.map(() => ({}));
+const paths = site === undefined ? Object.keys(pages) : lessonsOfSite.map((name) => `/${relative(repository, resolve(site, name))}#lab-1`);
 for (let run = 0; run <= runs; run++) {
-  for (const path of Object.keys(pages)) {
+  for (const path of paths) {
     const context = await browser.newContext();
     const page = await context.newPage();
     await page.addInitScript(watch);
     await page.goto(server.url + path);
     await page.waitForFunction(() => globalThis.marks["script fetched"] !== undefined);
     const marks = await page.evaluate(() => globalThis.marks);
-    const list = found[Number(path.split("-")[1][0])];
+    const list = found[site === undefined ? Number(path.split("-")[1][0]) : 0];
     // The first run warms up the browser.
     if (run > 0) for (const [name, time] of Object.entries(marks)) (list[name] ??= []).push(time);
     await context.close();
@@ -80,7 +85,7 @@ for (let run = 0; run <= runs; run++) {
 const median = (list) => list.toSorted((a, b) => a - b)[list.length >> 1];
 const smallest = (list) => Math.min(...list);
 scripts.forEach((script, i) => {
-  console.log(`${script}: ${labs.length} labs, ${runs} runs`);
+  console.log(`${site ?? script}: ${site === undefined ? labs.length : paths.length} labs, ${runs} runs`);
   const rows = Object.entries(found[i]).sort((a, b) => median(a[1]) - median(b[1]));
   for (const [name, list] of rows) console.log(`  ${median(list).toFixed(0).padStart(5)} ms (${smallest(list).toFixed(0)})  ${name}`);
 });
