@@ -371,7 +371,15 @@ test("what is done after a control was moved comes after it", async (t) => {
 });
 
 test("a theme that is set on an open lab is that of its plots and its picture", async (t) => {
-  const plot = (page) => page.locator(".plot canvas").evaluate((canvas) => canvas.toDataURL());
+  // The pixels of its file: a browser may write one picture as two different files. Reading the canvas itself would change how it is drawn.
+  const plot = (page) => page.locator(".plot canvas").evaluate(async (canvas) => {
+    const picture = new Image();
+    picture.src = canvas.toDataURL();
+    await picture.decode();
+    const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d");
+    copy.drawImage(picture, 0, 0);
+    return copy.getImageData(0, 0, canvas.width, canvas.height).data.join();
+  });
   const dark = await open(t, "/dark.html");
   const { page, errors } = await open(t, "/drop.html");
   for (const one of [dark.page, page]) {
