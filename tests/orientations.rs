@@ -18,7 +18,7 @@ fn codes(sources: &[String]) -> Vec<Vec<&'static str>> {
     let model = xml::compile(MODEL).unwrap();
     let names = ModelNames::new(&model, Scope::Lab);
     let found = |source: &String| {
-        let compiled = Compiler::new(&names, &mut Globals::new()).expression(source);
+        let compiled = Compiler::new(&names, &mut Globals::new()).linting().expression(source);
         compiled.diagnostics.iter().map(|d| d.code).collect()
     };
     sources.iter().map(found).collect()
