@@ -190,7 +190,8 @@ def _results(task: dict[str, Any], models: Files, missing: dict[str, None]) -> d
         except (LabspecError, NotImplementedError) as e:
             refused[name] = str(e)
     measured = {name: text for name, text in texts.items() if name not in refused}
-    values = there.measure(measured, steps=steps, press=[(label, time) for label, time in task["press"]], stop=task["stop"])
+    press = [(label, time) for label, time in task["press"]]
+    values = there.measure(measured, steps=steps, press=press, stop=task["stop"], stop_at=task["stopAt"])
     missing.update(dict.fromkeys(there.missing))
     return {"values": values, "refused": refused, "warnings": there.warnings, "broke": there.broke}
 

@@ -140,9 +140,13 @@ class MujocoLab:
         steps: int,
         press: Iterable[tuple[str, float]] = (),
         stop: str | None = None,
+        stop_at: float | None = None,
         perturbation: float = 0.0,
     ) -> dict[str, float]:
-        """Performs steps, and measures them. Buttons are pressed at their times, s; the run ends where the condition ``stop`` holds."""
+        """Performs steps, and measures them. Buttons are pressed at their times, s; the run ends where the condition ``stop`` holds.
+
+        With ``stop_at``, s, it ends when its time reaches that, whatever the number of steps: a program may reset it.
+        """
         running = {name: _Measure(self._programs, text) for name, text in measures.items()}
         ends = None if stop is None else _Measure(self._programs, stop)
         self._look()
@@ -154,13 +158,17 @@ class MujocoLab:
         before = self._mujoco.get_mju_user_warning()
         self._mujoco.set_mju_user_warning(lambda _text: None)
         try:
-            self._play(running.values(), ends, steps, pending)
+            self._play(running.values(), ends, steps, pending, stop_at)
         finally:
             self._mujoco.set_mju_user_warning(before)
         return {name: one.now() for name, one in running.items()}
 
-    def _play(self, running: Iterable[_Measure], ends: _Measure | None, steps: int, pending: list[tuple[str, float]]) -> None:
-        for made in range(steps + 1):
+    def _play(
+        self, running: Iterable[_Measure], ends: _Measure | None, steps: int, pending: list[tuple[str, float]], stop_at: float | None
+    ) -> None:
+        # As in labspec, a run that something resets again and again ends after 20 times its steps.
+        most = steps if stop_at is None else 20 * steps
+        for made in range(most + 1):
             while pending and self.time >= pending[0][1] - 1e-12:
                 self.press(pending.pop(0)[0])
             if made > 0:
@@ -174,6 +182,8 @@ class MujocoLab:
             for one in running:
                 one.sample(self.time)
             if ends is not None and ends.now() == 1:
+                return
+            if stop_at is not None and self.time >= stop_at - 1e-9 * float(self.model.opt.timestep) - made * 2.3e-16 * abs(stop_at):
                 return
 
     def compiles(self, text: str) -> None:

@@ -35,6 +35,9 @@ pub struct RunTask {
     stop: Option<String>,
     steps: Option<f64>,
     until: f64,
+    /// The time at which the run ends, s, if the lab ends it: a reset does not bring the end nearer. Requests do not contain it.
+    #[serde(skip)]
+    pub stop_at: Option<f64>,
     measures: Vec<(String, String)>,
     expressions: Vec<String>,
 }
@@ -108,7 +111,9 @@ fn task(
         set.push((label.value.clone(), chosen(lab, label, value)?));
     }
     let length = |given: Option<f64>| given.or(lab.stop_at.as_ref().map(|s| s.value)).unwrap_or(RUN_LENGTH);
+    let has_length = spec.is_some_and(|s| s.until.is_some() || s.steps.is_some());
     Ok(RunTask {
+        stop_at: lab.stop_at.as_ref().map(|s| s.value).filter(|_| !has_length),
         lab: lab_task(lab),
         xml,
         timestep,
