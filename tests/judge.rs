@@ -107,8 +107,8 @@ fn a_request_holds_the_models_as_the_runs_have_them() {
     assert!(xml(0).contains("name=\"floor\"") && !xml(0).contains("include"), "{}", xml(0));
     assert!(xml(0).contains("pos=\"0 0 1\"") && xml(1).contains("pos=\"0 0 2\""));
     assert_eq!(
-        (&runs[2]["task"]["set"], &runs[2]["task"]["until"]),
-        (&json!([["gravity", 5.0]]), &json!(0.3))
+        (&runs[2]["task"]["set"], &runs[2]["task"]["until"], &runs[2]["task"]["stopAt"]),
+        (&json!([["gravity", 5.0]]), &json!(0.3), &json!(0.3))
     );
     assert_eq!(runs[0]["task"]["measures"][0], json!(["height", "final(data.qpos[2])"]));
 }

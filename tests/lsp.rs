@@ -367,13 +367,13 @@ fn a_hundred_labs_answer_at_once() {
         }
     }
     let kinds = ["findings", "completion", "hover", "outline", "folds", "lenses"];
-    for (what, times) in kinds.into_iter().zip(&mut durations) {
-        times.sort();
-        // The tests beside this one only make an answer take longer.
-        let (shortest, slowest) = (times[0], times[times.len() - 1]);
+    for (what, times) in kinds.into_iter().zip(&durations) {
+        // The tests beside this one only make an answer take longer. The text has most mistakes in the last rounds.
+        let shortest = times[times.len() / 2..].iter().min().unwrap();
+        let slowest = times.iter().max().unwrap();
         println!("{what}: {shortest:?}, at most {slowest:?}");
-        assert!(times.len() > 5 && shortest < Duration::from_millis(50), "{what}: {shortest:?}");
-        assert!(slowest < Duration::from_secs(1), "{what}: {slowest:?}");
+        assert!(times.len() > 5 && *shortest < Duration::from_millis(50), "{what}: {shortest:?}");
+        assert!(*slowest < Duration::from_secs(1), "{what}: {slowest:?}");
     }
     assert_eq!(editor.end(), 0);
 }

@@ -129,17 +129,21 @@ export function scene(mj, task) {
     run(sample) {
       const pending = task.press.slice().sort((a, b) => a[1] - b[1]);
       const press = () => { while (pending.length && data.time >= pending[0][1] - 1e-12) controls.get(pending.shift()[0]).press(); };
-      const steps = task.steps ?? Math.floor(task.until / model.opt.timestep + 0.5);
+      const steps = task.steps ?? Math.floor(task.until / model.opt.timestep + 0.5), end = task.stopAt ?? null;
+      // A run that the lab ends goes on until its time, which a program may reset, but no longer than labspec's.
+      const most = end === null ? steps : 20 * steps;
+      const isOver = (made) => (broke !== null && made >= steps)
+        || (end !== null && data.time >= end - 1e-9 * model.opt.timestep - made * Number.EPSILON * Math.abs(end));
       press();
       note(false);
       if (sample()) return;
-      for (let i = 0; i < steps; i++) {
+      for (let i = 0; i < most; i++) {
         press();
         if (controller) try { call(controller); } catch (e) { threw = `the controller threw: ${e.message}`; return; }
         const time = data.time;
         mj.mj_step(model, data);
         if (data.time < time || i % 100 === 99) note(data.time < time);
-        if (sample()) return;
+        if (sample() || isOver(i + 1)) return;
       }
     },
     warnings: () => { note(false); return banked.reduce((s, n, i) => s + n + before[i], 0); },

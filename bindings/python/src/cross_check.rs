@@ -63,11 +63,7 @@ pub(crate) fn claimed_runs(
     let (cross_check, _) = background::run(py, None, |_| compared((path, text), folder, None))?;
     let row = |r: facade::check::Request| {
         let (task, refused) = match r.task {
-            Ok(task) => {
-                let mut request = to_value(&task);
-                request["stopAt"] = task.stop_at.into();
-                (Some(request.to_string()), None)
-            }
+            Ok(task) => (Some(to_value(&task).to_string()), None),
             Err(reason) => (None, Some(reason)),
         };
         (r.claim, r.run, r.hash, task, refused)

@@ -1,7 +1,7 @@
 //! Events that stop a run of a page at the step at which they occur: contacts that begin or end, and warnings of the engine.
 
+use labspec::player::touching_pairs;
 use labspec_core::{Fields, Warning};
-use labspec_finding::order;
 
 /// The observed state after the last step.
 #[derive(Default)]
@@ -36,13 +36,4 @@ impl Watched {
         self.start(fields);
         self.warnings.iter().zip(&counted).any(|(current, before)| current > before)
     }
-}
-
-/// The pairs of geoms that touched in the last step.
-pub(crate) fn touching_pairs(fields: &Fields) -> Vec<(usize, usize)> {
-    let pairs = fields.contact.iter().filter(|c| c.exclude == 0).map(|c| (c.geom1, c.geom2));
-    let mut pairs: Vec<(usize, usize)> = pairs.collect();
-    order::sort_by(&mut pairs, Ord::cmp);
-    pairs.dedup();
-    pairs
 }

@@ -24,7 +24,7 @@ use js_sys::{Error, Float32Array, Float64Array, JSON};
 use labspec::Checker;
 use labspec::Player;
 use labspec::finding::Finding;
-use labspec::player::{ControlKind, DisplayedIn, Saved};
+use labspec::player::{ControlKind, DisplayedIn, Saved, touching_pairs};
 #[cfg(feature = "checker")]
 use labspec_assist::EditorText;
 use serde_json::{Value as Json, json};
@@ -293,7 +293,7 @@ impl Lab {
 
     /// The pairs of geoms that touched in the last step, in sequence: the criterion at which `advance` stops.
     pub fn touching(&self) -> Vec<u32> {
-        let pairs = events::touching_pairs(self.player.data().fields());
+        let pairs = touching_pairs(self.player.data().fields());
         pairs.into_iter().flat_map(|(a, b)| [a as u32, b as u32]).collect()
     }
 

@@ -4,12 +4,12 @@
 //! (`web/elements/src/view`): the same camera, lights, colours, floor and overlays, so that a page can show it until its own is there, and a
 //! printed lesson shows what a reader of the page sees. Equal arguments give equal bytes.
 //!
-//! The modules follow the light backwards: [`eye`](mod@eye) gives the ray of a pixel, `content` the solids of the scene, `shape` where a ray meets a solid,
+//! The modules follow the light backwards: `eye` gives the ray of a pixel, `content` the solids of the scene, `shape` where a ray meets a solid,
 //! `surface` the colour that is seen there, `light` what arrives there, and `picture` the pixels.
 #![forbid(unsafe_code)]
 
 mod content;
-pub mod eye;
+mod eye;
 mod light;
 mod mesh;
 mod overlay;

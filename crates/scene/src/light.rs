@@ -3,7 +3,7 @@
 use crate::content::Solid;
 use crate::eye::{Eye, Ray};
 use crate::palette;
-use crate::shape::Hit;
+use crate::shape::{Hit, Placed};
 use labspec_core::math::{Vec3, add, add_scaled, dot, norm, normalize, rows, scale, sub};
 use labspec_core::{Data, Full, Model};
 
@@ -37,8 +37,33 @@ pub(crate) struct Lights {
     /// Light from above and from below.
     sky: Vec3,
     ground: Vec3,
+    /// What casts shadows.
+    casters: Vec<Caster>,
     /// A length that is small in the scene, m.
     gap: f64,
+}
+
+/// A solid that casts a shadow, with a ball around it.
+struct Caster {
+    placed: Placed,
+    center: Vec3,
+    radius: f64,
+}
+
+impl Caster {
+    /// A caster for a solid that casts shadows.
+    fn new(solid: &Solid) -> Option<Caster> {
+        let (center, radius) = solid.placed.bound();
+        solid.casts_shadow.then(|| Caster { placed: solid.placed.clone(), center, radius })
+    }
+
+    /// Whether it is on a ray between two distances.
+    fn blocks(&self, ray: &Ray, from: f64, to: f64) -> bool {
+        let away = sub(self.center, ray.from);
+        let along = dot(away, ray.direction);
+        let is_near = along > -self.radius && dot(away, away) - along * along <= self.radius * self.radius;
+        is_near && self.placed.hit(ray, from, to).is_some()
+    }
 }
 
 /// What arrives at a point of a surface and leaves it towards the eye.
@@ -112,7 +137,7 @@ impl Light {
 }
 
 impl Lights {
-    pub(crate) fn new(m: &Model, d: &Data<Full>, eye: &Eye, has_shadows: bool) -> Lights {
+    pub(crate) fn new(m: &Model, d: &Data<Full>, eye: &Eye, solids: &[Solid], has_shadows: bool) -> Lights {
         let mut given: Vec<Light> = (0..m.light_type.len()).filter_map(|id| light_of(m, d, id)).collect();
         let active = |id: &usize| light_of(m, d, *id).is_some();
         let of_model = rows::<3>(&m.light_ambient).iter().enumerate().filter(|(id, _)| active(id));
@@ -126,6 +151,11 @@ impl Lights {
         let shadow = lights.iter().position(|light| light.casts_shadow).filter(|_| has_shadows);
         Lights {
             lights,
+            casters: if shadow.is_some() {
+                solids.iter().filter_map(Caster::new).collect()
+            } else {
+                Vec::new()
+            },
             shadow,
             sky: add(palette::SKY, ambient),
             ground: add(palette::GROUND, ambient),
@@ -133,15 +163,13 @@ impl Lights {
         }
     }
 
+    /// The number of solids that cast shadows.
+    pub(crate) fn casters(&self) -> usize {
+        self.casters.len()
+    }
+
     /// The light at a point whose normal faces the eye.
-    pub(crate) fn arriving(
-        &self,
-        hit: &Hit,
-        normal: Vec3,
-        ray: &Ray,
-        shininess: f64,
-        solids: &[Solid],
-    ) -> Arriving {
+    pub(crate) fn arriving(&self, hit: &Hit, normal: Vec3, ray: &Ray, shininess: f64) -> Arriving {
         let point = ray.point(hit.distance);
         let to_eye = scale(ray.direction, -1.0);
         let up = 0.5 * normal[2] + 0.5;
@@ -155,7 +183,9 @@ impl Lights {
                 continue;
             }
             let from = Ray { from: add_scaled(point, normal, self.gap), direction: l };
-            if self.shadow == Some(i) && is_blocked(&from, self.gap, range, solids) {
+            if self.shadow == Some(i)
+                && self.casters.iter().any(|caster| caster.blocks(&from, self.gap, range))
+            {
                 continue;
             }
             diffuse = add_scaled(diffuse, light.diffuse, facing * strength);
@@ -165,16 +195,4 @@ impl Lights {
         }
         Arriving { diffuse, gloss }
     }
-}
-
-/// Whether something that casts shadows is on a ray between two distances.
-fn is_blocked(ray: &Ray, from: f64, to: f64, solids: &[Solid]) -> bool {
-    let may_block = |solid: &&Solid| {
-        let (center, radius) = solid.placed.bound();
-        let away = sub(center, ray.from);
-        let along = dot(away, ray.direction);
-        along > -radius && dot(away, away) - along * along <= radius * radius
-    };
-    let casters = solids.iter().filter(|solid| solid.casts_shadow);
-    casters.filter(may_block).any(|solid| solid.placed.hit(ray, from, to).is_some())
 }

@@ -50,18 +50,26 @@ const SAMPLES: [[f64; 2]; 8] = [
     [0.4375, 0.9375],
 ];
 
-/// Draws a scene.
+/// The most that is done for the first ray of all pixels, in tests whether a ray meets a shape: a few seconds.
+const MOST_TESTS: usize = 1_000_000_000;
+
+/// Draws a scene. `None` if it has so many shapes that this would take longer than anybody waits (4,000 that cast shadows, in a picture of
+/// 800 × 300 pixels).
 ///
 /// The data have all fields of their state (`forward`).
-pub fn draw(m: &Model, d: &Data<Full>, view: &View) -> Picture {
+pub fn draw(m: &Model, d: &Data<Full>, view: &View) -> Option<Picture> {
     let size = view.size.map(|side| side.min(View::MAX_SIDE));
     let eye = Eye::new(&view.camera, m, size);
     let content = Content::new(m, d, view, &eye);
-    let lights = Lights::new(m, d, &eye, view.overlays.shadows);
+    let lights = Lights::new(m, d, &eye, &content.solids, view.overlays.shadows);
     let near = 1e-4 * m.stat.extent.max(1e-6);
     let tiles = Tiles::new(&content, &eye, size);
-    let scene = Scene { m, content, lights, eye, near };
     let [width, height] = size;
+    if tiles.tests().saturating_add(width * height * lights.casters()) > MOST_TESTS {
+        return None;
+    }
+    let all = (0..content.solids.len() as u32).collect();
+    let scene = Scene { m, content, all, lights, eye, near };
     let mut rgb = vec![0; 3 * width * height];
     for (y, row) in rgb.chunks_exact_mut((3 * width).max(1)).enumerate() {
         for (x, pixel) in row.as_chunks_mut::<3>().0.iter_mut().enumerate() {
@@ -82,7 +90,7 @@ pub fn draw(m: &Model, d: &Data<Full>, view: &View) -> Picture {
             }
         }
     }
-    Picture { width, height, rgb }
+    Some(Picture { width, height, rgb })
 }
 
 fn one_ray(scene: &Scene<'_>, tiles: &Tiles, [x, y]: [usize; 2], [dx, dy]: [f64; 2]) -> Visible {
@@ -97,8 +105,8 @@ fn mean(all: [Visible; SAMPLES.len()]) -> Visible {
     Visible { rgb: [sum(|s| s.rgb[0]), sum(|s| s.rgb[1]), sum(|s| s.rgb[2])], opacity: sum(|s| s.opacity) }
 }
 
-fn bytes(seen: Visible) -> [u8; 3] {
-    seen.rgb.map(|c| (255.0 * c.clamp(0.0, 1.0) + 0.5) as u8)
+fn bytes(visible: Visible) -> [u8; 3] {
+    visible.rgb.map(|c| (255.0 * c.clamp(0.0, 1.0) + 0.5) as u8)
 }
 
 /// For each square of pixels the solids that it can show.
@@ -125,6 +133,11 @@ impl Tiles {
             lists
         };
         Tiles { columns, solids: lists(&content.solids), overlays: lists(&content.overlays) }
+    }
+
+    /// The number of tests for one ray of each pixel.
+    fn tests(&self) -> usize {
+        self.solids.iter().chain(&self.overlays).map(|list| TILE * TILE * list.len()).sum()
     }
 
     fn at(&self, x: usize, y: usize) -> (&[u32], &[u32]) {

@@ -86,11 +86,11 @@ impl Placed {
     pub(crate) fn bound(&self) -> (Vec3, f64) {
         let [x, y, z] = self.scale;
         let radius = match &self.shape {
-            Shape::Plane => x.hypot(y),
-            Shape::Box => x.hypot(y).hypot(z),
+            Shape::Plane => libm::hypot(x, y),
+            Shape::Box => libm::hypot(libm::hypot(x, y), z),
             Shape::Ball => x.max(y).max(z),
             Shape::Capsule(half) => x + half,
-            Shape::Cylinder | Shape::Cone => x.max(y).hypot(z),
+            Shape::Cylinder | Shape::Cone => libm::hypot(x.max(y), z),
             Shape::Mesh(triangles) => {
                 let (middle, radius) = triangles.bound();
                 return (add_scaled(self.position, mat_mul_vec(&self.rotation, middle), 1.0), radius);

@@ -13,6 +13,8 @@ use labspec_core::{Model, Texture};
 pub(crate) struct Scene<'s> {
     pub(crate) m: &'s Model,
     pub(crate) content: Content,
+    /// The indices of all solids, for rays of which no pixel is known.
+    pub(crate) all: Vec<u32>,
     pub(crate) lights: Lights,
     pub(crate) eye: Eye,
     /// The shortest distance at which something is seen, m.
@@ -134,7 +136,7 @@ impl Scene<'_> {
         }
         let normal = if is_behind { scale(hit.normal, -1.0) } else { hit.normal };
         let material = &solid.material;
-        let arriving = self.lights.arriving(hit, normal, ray, material.shininess, &self.content.solids);
+        let arriving = self.lights.arriving(hit, normal, ray, material.shininess);
         let glossy = 0.5 * material.specular * if solid.pattern.grid { 0.15 } else { 1.0 };
         let shade = [0, 1, 2]
             .map(|i| base[i] * (arriving.diffuse[i] + material.emission) + arriving.gloss[i] * glossy);
@@ -143,8 +145,7 @@ impl Scene<'_> {
         if solid.pattern.mirror && may_mirror && (is_plane || hit.unit[2] > 0.999_999) {
             let away = add_scaled(ray.direction, normal, -2.0 * dot(ray.direction, normal));
             let from = add_scaled(ray.point(hit.distance), normal, 1e-3 * self.near);
-            let all: Vec<u32> = (0..self.content.solids.len() as u32).collect();
-            let (mirrored, _) = self.surfaces(&Ray { from, direction: away }, &all, false);
+            let (mirrored, _) = self.surfaces(&Ray { from, direction: away }, &self.all, false);
             rgb = [0, 1, 2].map(|i| (rgb[i] + material.reflectance * mirrored.rgb[i]).min(1.0));
         }
         Visible { rgb: scale(rgb.map(|c| c.min(1.0)), opacity), opacity }

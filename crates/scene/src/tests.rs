@@ -7,7 +7,7 @@ fn picture(xml: &str, view: &View) -> Picture {
     let m = Model::from_xml(xml).unwrap();
     let mut d = Data::new(&m);
     forward(&m, &mut d).unwrap();
-    draw(&m, &d, view)
+    draw(&m, &d, view).unwrap()
 }
 
 /// A view from above the origin, 2 m away.
@@ -152,5 +152,15 @@ fn nothing_that_a_view_or_a_scene_may_say_breaks_the_picture() {
     let mut d = Data::new(&m);
     d.edit().qpos.fill(f64::NAN);
     let _ = forward(&m, &mut d);
-    assert_eq!(draw(&m, &d, &from_above()).rgb.len(), 3 * 60 * 60);
+    assert_eq!(draw(&m, &d, &from_above()).unwrap().rgb.len(), 3 * 60 * 60);
+}
+
+#[test]
+fn a_scene_of_too_many_shapes_is_not_drawn() {
+    let many: String =
+        (0..5000).map(|i| format!("<geom size='.1' pos='{} 0 0'/>", 0.001 * f64::from(i))).collect();
+    let m = Model::from_xml(&scene(&many)).unwrap();
+    let mut d = Data::new(&m);
+    forward(&m, &mut d).unwrap();
+    assert!(draw(&m, &d, &View::default()).is_none());
 }

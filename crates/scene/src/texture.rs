@@ -71,12 +71,15 @@ fn color(t: &Texture, [u, v]: [f64; 2], face: usize) -> Vec3 {
 /// The first colour in the middle of an image or at the top of a cube, the second one at the border or at the bottom.
 fn gradient(t: &Texture, x: f64, y: f64, face: usize) -> Vec3 {
     let rise = match face {
-        UP => libm::atan2(1.0, x.hypot(y)),
-        DOWN => -libm::atan2(1.0, x.hypot(y)),
-        _ => libm::atan2(-y, x.hypot(1.0)),
+        UP => libm::atan2(1.0, libm::hypot(x, y)),
+        DOWN => -libm::atan2(1.0, libm::hypot(x, y)),
+        _ => libm::atan2(-y, libm::hypot(x, 1.0)),
     };
-    let height =
-        if t.kind == FLAT_KIND { (1.0 - x.hypot(y)).max(0.0) } else { 0.5 + rise / std::f64::consts::PI };
+    let height = if t.kind == FLAT_KIND {
+        (1.0 - libm::hypot(x, y)).max(0.0)
+    } else {
+        0.5 + rise / std::f64::consts::PI
+    };
     let share = sigmoid(height);
     [0, 1, 2].map(|i| t.rgb1[i] * share + t.rgb2[i] * (1.0 - share))
 }

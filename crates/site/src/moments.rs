@@ -5,6 +5,8 @@ use crate::text::escape;
 use crate::verified::short_hash;
 use labspec::Player;
 use labspec::bind::Programs;
+use labspec::player::touching_pairs;
+use labspec::report::capital;
 use labspec::run::rounded;
 use labspec::source::SourceFile;
 use labspec::spec::Lab;
@@ -32,6 +34,8 @@ pub(crate) struct Moments {
     pictures: Vec<(String, String)>,
     /// What happens, in sentences.
     events: Vec<String>,
+    /// Why not everything is drawn.
+    problem: Option<String>,
 }
 
 impl Moments {
@@ -63,17 +67,34 @@ impl Moments {
                 self.events.iter().map(|text| format!("<li>{}</li>", escape(text))).collect();
             let _ = write!(out, "<ul class=\"events\">{sentences}</ul>");
         }
+        if let Some(problem) = &self.problem {
+            let _ = write!(
+                out,
+                "<p class=\"twin-failed\">The run is not drawn to its end: {}.</p>",
+                escape(problem.trim_end_matches('.'))
+            );
+        }
         out
     }
 
-    fn add(&mut self, picture: &Picture, caption: String) {
-        let Some(file) = picture.to_jpeg() else { return };
+    fn add(&mut self, picture: Option<Picture>, caption: String) {
+        let Some(picture) = picture else {
+            return self.fail("its scene has too many shapes for a picture".into());
+        };
+        let Some(file) = picture.to_jpeg() else {
+            return self.fail("a picture cannot be written".into());
+        };
         let name = format!("pictures/{}.jpg", short_hash(&[&file]));
         // Where nothing has moved, one picture is enough.
         if self.pictures.last().is_none_or(|(last, _)| *last != name) {
             self.files.insert(name.clone(), file);
             self.pictures.push((name, caption));
         }
+    }
+
+    /// Stores the first reason why not everything is drawn.
+    fn fail(&mut self, why: String) {
+        self.problem.get_or_insert(why);
     }
 }
 
@@ -133,32 +154,36 @@ pub(crate) fn moments(lab: &Lab, file: &SourceFile, model: &Model, programs: Pro
         moments: &mut moments,
     };
     run.draw("at the start".into());
-    // A lab that breaks shows what it shows until then.
-    let _ = run.play();
+    run.play();
     moments
 }
 
 impl DrawnRun<'_> {
     fn draw(&mut self, caption: String) {
-        if let Ok((model, data)) = self.player.model_and_scene() {
-            let picture = draw(model, data, &self.view);
-            self.moments.add(&picture, caption);
+        match self.player.model_and_scene() {
+            Ok((model, data)) => self.moments.add(draw(model, data, &self.view), caption),
+            Err(why) => self.moments.fail(why.to_string()),
         }
     }
 
     /// Plays to the end: draws where two things first touch, and the end.
-    fn play(&mut self) -> Result<(), labspec::Error> {
+    fn play(&mut self) {
         let mut is_first = true;
         let mut further = 0;
         // What touches in the first step does so at the start.
         let step = self.player.timestep();
         let start = self.player.time() + 1.5 * step;
         loop {
-            let contacts = self.next_contacts()?;
+            let contacts = match self.next_contacts() {
+                Ok(contacts) if contacts.is_empty() => break,
+                Ok(contacts) => contacts,
+                // A lab that breaks is drawn as it is then.
+                Err(why) => {
+                    self.moments.fail(why.to_string());
+                    break;
+                }
+            };
             let time = self.player.time();
-            if contacts.is_empty() {
-                break;
-            }
             if time <= start {
                 continue;
             }
@@ -185,7 +210,6 @@ impl DrawnRun<'_> {
         if self.player.time() > start {
             self.draw(format!("after {} s", seconds(self.player.time())));
         }
-        Ok(())
     }
 
     /// Plays to the next step in which geoms touch that did not touch before, and returns their pairs. None: there are none up to the end, or
@@ -203,7 +227,7 @@ impl DrawnRun<'_> {
                     return ControlFlow::Break(());
                 }
                 last = data.time();
-                let now = touching_pairs(data);
+                let now = touching_pairs(data.fields());
                 new = now.iter().copied().filter(|pair| touching.binary_search(pair).is_err()).collect();
                 *touching = now;
                 if new.is_empty() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
@@ -229,15 +253,6 @@ impl DrawnRun<'_> {
     }
 }
 
-/// The pairs of geoms that touched in the last step, in ascending order.
-fn touching_pairs(data: &Data<Planned>) -> Vec<(usize, usize)> {
-    let pairs = data.fields().contact.iter().filter(|c| c.exclude == 0).map(|c| (c.geom1, c.geom2));
-    let mut pairs: Vec<(usize, usize)> = pairs.collect();
-    pairs.sort_unstable();
-    pairs.dedup();
-    pairs
-}
-
 /// The name of a geom for readers: its own, that of its body, or its number.
 fn name_of(model: &Model, geom: usize) -> String {
     let named = model.names.of_kind(Obj::Geom).get(geom).filter(|name| !name.is_empty());
@@ -258,11 +273,6 @@ fn ordered([first, second]: [String; 2]) -> [String; 2] {
 
 fn seconds(time: f64) -> String {
     rounded(time, 2)
-}
-
-fn capital(text: &str) -> String {
-    let mut rest = text.chars();
-    rest.next().map_or(String::new(), |c| c.to_uppercase().chain(rest).collect())
 }
 
 #[cfg(test)]
@@ -360,5 +370,9 @@ mod tests {
     fn a_lab_that_breaks_shows_its_start() {
         let run = run_of(&lab(BALL, ", \"controller\": \"ctx.nothing.x = 1\""), 0.3);
         assert_eq!(captions(&run)[0], "at the start");
+        assert!(
+            run.html("", |name| name.to_string()).contains("The run is not drawn to its end: "),
+            "{run:?}"
+        );
     }
 }

@@ -15,7 +15,7 @@ const site = (await serve(suite, out)).url;
 /** A channel of a pixel may differ by this, of 255: JPEG, and soft edges of shadows. */
 const MOST = 40;
 /** Pixels of which no neighbour in the other picture is nearer than that. */
-const MOST_PIXELS = 0.004;
+const MOST_PIXELS = 0.001;
 
 /**
  * Compares the canvas of a lab with its poster: the share of pixels that have no similar one within a pixel of their place, and the size of both. The

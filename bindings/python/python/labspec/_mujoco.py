@@ -166,7 +166,7 @@ class MujocoLab:
     def _play(
         self, running: Iterable[_Measure], ends: _Measure | None, steps: int, pending: list[tuple[str, float]], stop_at: float | None
     ) -> None:
-        # As in labspec, a run that something resets again and again ends after 20 times its steps.
+        # As in labspec, a run that something resets again and again ends after 20 times its steps, and one that has diverged after its steps.
         most = steps if stop_at is None else 20 * steps
         for made in range(most + 1):
             while pending and self.time >= pending[0][1] - 1e-12:
@@ -182,6 +182,8 @@ class MujocoLab:
             for one in running:
                 one.sample(self.time)
             if ends is not None and ends.now() == 1:
+                return
+            if self.broke is not None and made >= steps:
                 return
             if stop_at is not None and self.time >= stop_at - 1e-9 * float(self.model.opt.timestep) - made * 2.3e-16 * abs(stop_at):
                 return

@@ -21,8 +21,9 @@ use crate::run::{self, Budget, Cell, End, Play, Session, settings};
 use crate::source::SourceFile;
 use crate::spec::Lab;
 use labspec_core::reflect::{FieldSet, Object};
-use labspec_core::{Data, Model, Planned};
+use labspec_core::{Data, Fields, Model, Planned};
 use labspec_expr::Value;
+use labspec_finding::order;
 use scene::Scene;
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -47,6 +48,15 @@ pub struct Saved {
     session: Session<'static>,
     cells: Vec<Cell>,
     numbers: Vec<f64>,
+}
+
+/// The pairs of geoms that touched in the last step, in ascending order.
+pub fn touching_pairs(fields: &Fields) -> Vec<(usize, usize)> {
+    let pairs = fields.contact.iter().filter(|c| c.exclude == 0).map(|c| (c.geom1, c.geom2));
+    let mut pairs: Vec<(usize, usize)> = pairs.collect();
+    order::sort_by(&mut pairs, Ord::cmp);
+    pairs.dedup();
+    pairs
 }
 
 impl Player {

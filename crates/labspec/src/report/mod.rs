@@ -17,7 +17,7 @@ mod table;
 pub mod uri;
 
 pub use crate::json::to_value;
-pub use crate::printable::{counted, printable, printable_json, printable_lines, printable_path};
+pub use crate::printable::{capital, counted, printable, printable_json, printable_lines, printable_path};
 #[cfg(feature = "report")]
 pub use formats::{concise, github, gitlab, jsonl, junit, statistics};
 #[cfg(feature = "report")]

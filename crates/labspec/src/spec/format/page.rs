@@ -3,6 +3,7 @@
 use super::describe::{default, takes};
 use super::{Absent, CONTROL, EVENTS, FIRST, Family, Key, LAB, Need, OBJECTS, OVERLAYS, Object, QUESTION};
 use super::{Together, Type, Word};
+use crate::printable::capital;
 use std::fmt::Write;
 
 /// The reference page of the format, as Markdown.
@@ -138,9 +139,4 @@ fn events(text: &mut String) {
 /// Escapes the bars of a text, so that they do not separate table cells.
 fn cell(text: &str) -> String {
     text.replace('|', "\\|")
-}
-
-fn capital(name: &str) -> String {
-    let mut chars = name.chars();
-    chars.next().map(|c| c.to_uppercase().to_string()).unwrap_or_default() + chars.as_str()
 }

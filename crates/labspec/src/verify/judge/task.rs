@@ -35,9 +35,9 @@ pub struct RunTask {
     stop: Option<String>,
     steps: Option<f64>,
     until: f64,
-    /// The time at which the run ends, s, if the lab ends it: a reset does not bring the end nearer. Requests do not contain it.
-    #[serde(skip)]
-    pub stop_at: Option<f64>,
+    /// The time at which the run ends, s, if the lab ends it: a program that resets the time does not change that.
+    #[serde(rename = "stopAt")]
+    stop_at: Option<f64>,
     measures: Vec<(String, String)>,
     expressions: Vec<String>,
 }
@@ -113,7 +113,6 @@ fn task(
     let length = |given: Option<f64>| given.or(lab.stop_at.as_ref().map(|s| s.value)).unwrap_or(RUN_LENGTH);
     let has_length = spec.is_some_and(|s| s.until.is_some() || s.steps.is_some());
     Ok(RunTask {
-        stop_at: lab.stop_at.as_ref().map(|s| s.value).filter(|_| !has_length),
         lab: lab_task(lab),
         xml,
         timestep,
@@ -122,6 +121,7 @@ fn task(
         setup: code(spec.and_then(|s| s.setup.as_ref())),
         stop: code(spec.and_then(|s| s.stop.as_ref())),
         steps: spec.and_then(|s| s.steps.as_ref()).map(|n| n.value.max(0.0).round()),
+        stop_at: lab.stop_at.as_ref().map(|s| s.value).filter(|time| *time > 0.0 && !has_length),
         until: length(spec.and_then(|s| s.until.as_ref()).map(|n| n.value)),
         measures: scene.measures.iter().map(|(name, m)| (name.to_string(), m.text.value.clone())).collect(),
         expressions: statements.iter().map(|t| t.value.clone()).collect(),
