@@ -31,8 +31,8 @@ const LESSON: &str = r##"# A fall
 After 0.2 s it is at 0.80 m.
 "##;
 const WRONG_LESSON: &str = r#"{"recording": "judge", "version": 1, "engine": "MuJoCo 9.9.9", "runs": [
- {"file": "fall.md", "claim": "lab #1", "run": "fall", "hash": "220aa973feae4e87", "values": {"height": 0.811}}]}
+ {"file": "fall.md", "claim": "lab #1", "run": "fall", "hash": "ec4753daaee7cf8d", "values": {"height": 0.811}}]}
 "#;
 const RIGHT_LESSON: &str = r#"{"recording": "judge", "version": 1, "engine": "MuJoCo 3.14.0", "runs": [
- {"file": "fall.md", "claim": "lab #1", "run": "fall", "hash": "220aa973feae4e87", "values": {"height": 0.802}}]}
+ {"file": "fall.md", "claim": "lab #1", "run": "fall", "hash": "ec4753daaee7cf8d", "values": {"height": 0.802}}]}
 "#;
