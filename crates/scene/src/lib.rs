@@ -5,11 +5,12 @@
 //! printed lesson shows what a reader of the page sees. Equal arguments give equal bytes.
 //!
 //! The modules follow the light backwards: `eye` gives the ray of a pixel, `content` the solids of the scene, `shape` where a ray meets a solid,
-//! `surface` the colour that is seen there, `light` what arrives there, and `picture` the pixels.
+//! `surface` the colour that is seen there, `texture` and `image` those of textures, `light` what arrives there, and `picture` the pixels.
 #![forbid(unsafe_code)]
 
 mod content;
 mod eye;
+mod image;
 mod light;
 mod mesh;
 mod overlay;
@@ -22,6 +23,7 @@ mod tests;
 mod texture;
 
 pub use eye::Camera;
+pub use image::Images;
 pub use picture::{Picture, draw};
 
 /// What is drawn over a scene, by the names of the lab format.
@@ -69,6 +71,8 @@ pub struct View {
     pub overlays: Overlays,
     /// Length of a drawn force, m/N.
     pub force_scale: f64,
+    /// The pictures of textures. Those that are not among them are white.
+    pub images: Images,
     /// The path of a point up to now, world frame, m.
     pub trail: Vec<[f64; 3]>,
     /// Width and height, pixels; at most [`View::MAX_SIDE`] each.
@@ -86,6 +90,7 @@ impl Default for View {
             camera: Camera::default(),
             overlays: Overlays::default(),
             force_scale: 0.02,
+            images: Images::default(),
             trail: Vec::new(),
             size: [800, 300],
         }

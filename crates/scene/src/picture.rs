@@ -69,7 +69,7 @@ pub fn draw(m: &Model, d: &Data<Full>, view: &View) -> Option<Picture> {
         return None;
     }
     let all = (0..content.solids.len() as u32).collect();
-    let scene = Scene { m, content, all, lights, eye, near };
+    let scene = Scene { m, content, all, lights, eye, images: &view.images, near };
     let mut rgb = vec![0; 3 * width * height];
     for (y, row) in rgb.chunks_exact_mut((3 * width).max(1)).enumerate() {
         for (x, pixel) in row.as_chunks_mut::<3>().0.iter_mut().enumerate() {

@@ -2,12 +2,13 @@
 
 use crate::content::{Content, Coordinates, Solid};
 use crate::eye::{Eye, Ray};
+use crate::image::Images;
 use crate::light::{Lights, smoothstep};
 use crate::palette;
 use crate::shape::{Hit, Shape};
-use crate::texture;
-use labspec_core::math::{Vec3, add_scaled, dot, mat_t_mul_vec, norm, scale, sub};
-use labspec_core::{Model, Texture};
+use crate::texture::{self, Place};
+use labspec_core::Model;
+use labspec_core::math::{Vec3, add, add_scaled, dot, mat_t_mul_vec, norm, scale, sub};
 
 /// Everything that a ray can meet.
 pub(crate) struct Scene<'s> {
@@ -17,6 +18,7 @@ pub(crate) struct Scene<'s> {
     pub(crate) all: Vec<u32>,
     pub(crate) lights: Lights,
     pub(crate) eye: Eye,
+    pub(crate) images: &'s Images,
     /// The shortest distance at which something is seen, m.
     pub(crate) near: f64,
 }
@@ -112,11 +114,11 @@ impl Scene<'_> {
     fn shade(&self, hit: &Hit, solid: &Solid, ray: &Ray, may_mirror: bool) -> Visible {
         let [r, g, b, mut opacity] = solid.color;
         let mut base = linear([r, g, b]);
-        if let Some((id, from)) = solid.material.texture
-            && let Some(t) = self.m.textures.get(id)
-        {
-            let color = linear(texture_at(t, from, hit, solid));
+        if let Some((id, from)) = solid.material.texture {
+            let [r, g, b, alpha] = self.texture_at((id, from), hit, solid, ray);
+            let color = linear([r, g, b]);
             base = [0, 1, 2].map(|i| base[i] * color[i]);
+            opacity *= alpha;
         }
         let is_plane = matches!(solid.placed.shape, Shape::Plane);
         if solid.pattern.grid {
@@ -151,6 +153,24 @@ impl Scene<'_> {
         Visible { rgb: scale(rgb.map(|c| c.min(1.0)), opacity), opacity }
     }
 
+    /// The colour and the opacity of a texture at a point of a solid.
+    fn texture_at(&self, (id, from): (usize, Coordinates), hit: &Hit, solid: &Solid, ray: &Ray) -> [f64; 4] {
+        let repeat = solid.material.repeat;
+        let place = place_at(from, hit, repeat);
+        let Some(image) = self.images.get(id) else {
+            let [r, g, b] = self.m.textures.get(id).map_or([1.0; 3], |t| texture::color(t, place));
+            return [r, g, b, 1.0];
+        };
+        // The texture's pixels from this pixel to the next one, to the right and downwards.
+        let pixels = self.eye.moves(ray, hit.normal, ray.point(hit.distance)).map(|by| {
+            let by = mat_t_mul_vec(&solid.placed.rotation, by);
+            let in_unit = [0, 1, 2].map(|i| by[i] / solid.placed.scale[i]);
+            let next = Hit { local: add(hit.local, by), unit: add(hit.unit, in_unit), ..*hit };
+            image.distance(place, place_at(from, &next, repeat))
+        });
+        image.color(place, pixels[0].max(pixels[1]))
+    }
+
     /// The colour of a floor with its lines.
     fn with_grid(&self, base: Vec3, hit: &Hit, solid: &Solid, ray: &Ray) -> Vec3 {
         let dark = 0.3 * base[0] + 0.6 * base[1] + 0.1 * base[2] <= 0.2;
@@ -175,27 +195,33 @@ impl Scene<'_> {
     /// The sky box, or the background of the page.
     fn sky(&self, ray: &Ray) -> Visible {
         let [r, g, b, _] = palette::BACKGROUND;
-        let Some(sky) = self.m.textures.iter().find(|t| t.kind == texture::SKY_KIND) else {
+        let mut textures = self.m.textures.iter().enumerate();
+        let Some((id, sky)) = textures.find(|(_, t)| t.kind == texture::SKY_KIND) else {
             return Visible { rgb: [r, g, b], opacity: 1.0 };
         };
         let [x, y, z] = ray.direction;
-        Visible { rgb: texture::cube(sky, [x, z, -y]), opacity: 1.0 }
+        let place = Place::cube([x, z, -y]);
+        let rgb = match self.images.get(id).map(|image| image.color(place, 1.0)) {
+            Some([r, g, b, _]) => [r, g, b],
+            None => texture::color(sky, place),
+        };
+        Visible { rgb, opacity: 1.0 }
     }
 }
 
-fn texture_at(t: &Texture, from: Coordinates, hit: &Hit, solid: &Solid) -> Vec3 {
-    let [a, b] = solid.material.repeat;
+/// The place of a texture at a point of a solid.
+fn place_at(from: Coordinates, hit: &Hit, [a, b]: [f64; 2]) -> Place {
     let [x, y, _] = hit.local;
     match from {
-        Coordinates::Mesh => texture::flat(t, [hit.uv[0] * a, hit.uv[1] * b]),
+        Coordinates::Mesh => Place::flat([hit.uv[0] * a, hit.uv[1] * b]),
         // A tile of a plane without end has its middle at the origin.
-        Coordinates::Endless => texture::flat(t, [0.5 + 0.5 * x * a, 0.5 - 0.5 * y * b]),
+        Coordinates::Endless => Place::flat([0.5 + 0.5 * x * a, 0.5 - 0.5 * y * b]),
         Coordinates::Box => {
             let [u, v] = box_coordinates(hit.unit);
-            texture::flat(t, [u * a, v * b])
+            Place::flat([u * a, v * b])
         }
-        Coordinates::Cube => texture::cube(t, hit.unit),
-        Coordinates::CubeOfMetres => texture::cube(t, hit.local),
+        Coordinates::Cube => Place::cube(hit.unit),
+        Coordinates::CubeOfMetres => Place::cube(hit.local),
     }
 }
 

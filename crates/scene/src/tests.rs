@@ -1,6 +1,6 @@
 //! Whole pictures.
 
-use crate::{Camera, Overlays, Picture, View, draw};
+use crate::{Camera, Images, Overlays, Picture, View, draw};
 use labspec_core::{Data, Model, forward};
 
 fn picture(xml: &str, view: &View) -> Picture {
@@ -137,6 +137,7 @@ fn nothing_that_a_view_or_a_scene_may_say_breaks_the_picture() {
                 force_scale: x,
                 trail: vec![[x, 0.0, 0.0], [0.0; 3], [x; 3]],
                 size: [33, 17],
+                ..View::default()
             };
             let p = picture(&scene(&bodies), &view);
             assert_eq!(p.rgb.len(), 3 * 33 * 17);
@@ -163,4 +164,38 @@ fn a_scene_of_too_many_shapes_is_not_drawn() {
     let mut d = Data::new(&m);
     forward(&m, &mut d).unwrap();
     assert!(draw(&m, &d, &View::default()).is_none());
+}
+
+/// A PNG file of one row.
+fn png_of(pixels: &[[u8; 3]]) -> Vec<u8> {
+    let mut file = Vec::new();
+    let mut encoder = png::Encoder::new(&mut file, pixels.len() as u32, 1);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.write_header().unwrap().write_image_data(pixels.as_flattened()).unwrap();
+    file
+}
+
+#[test]
+fn a_texture_from_a_file_has_its_colours_on_the_floor_and_their_mean_far_away() {
+    let floor = "<geom type='plane' size='0 0 1' material='m'/>";
+    let assets = "<asset><texture type='2d' name='t' file='t.png'/><material name='m' texture='t' texrepeat='1 1'/></asset>";
+    let m = Model::from_xml(&format!("<mujoco>{assets}<worldbody>{floor}</worldbody></mujoco>")).unwrap();
+    let mut d = Data::new(&m);
+    forward(&m, &mut d).unwrap();
+    let picture = |file: &[u8], distance: f64| {
+        let images = Images::read(&m, |path| (path == "t.png").then(|| file.to_vec()));
+        let camera = Camera { distance: Some(distance), ..from_above().camera };
+        draw(&m, &d, &View { camera, images, ..from_above() }).unwrap()
+    };
+    // Red on the left of the origin, blue on its right.
+    let file = png_of(&[[255, 0, 0], [0, 0, 255]]);
+    let near = picture(&file, 1.0);
+    let [left, right] = [10, 50].map(|x| at(&near, x, 30));
+    assert!(left[0] > 2 * left[2] && right[2] > 2 * right[0], "{left:?} {right:?}");
+    let far = picture(&file, 1000.0);
+    let [a, b] = [10, 50].map(|x| at(&far, x, 30));
+    assert!([a, b].iter().all(|[red, _, blue]| (red - blue).abs() < 4), "{a:?} {b:?}");
+    // A texture without its picture is white.
+    let [r, g, b] = at(&picture(b"no picture", 1.0), 30, 30);
+    assert!(r == g && g == b, "{r} {g} {b}");
 }

@@ -1,10 +1,11 @@
-//! MuJoCo's builtin textures (XML reference, `asset/texture`), computed at the point that is seen. A texture from a file is white.
+//! Where a texture is seen, and MuJoCo's builtin textures (XML reference, `asset/texture`), computed at that place. Textures from files are
+//! in `image`; one without its file is white.
 
 use labspec_core::Texture;
 use labspec_core::math::Vec3;
 
 /// `mjtTexture`, `mjtBuiltin` and `mjtMark`.
-const FLAT_KIND: i32 = 0;
+pub(crate) const FLAT_KIND: i32 = 0;
 pub(crate) const SKY_KIND: i32 = 2;
 const GRADIENT: i32 = 1;
 const CHECKER: i32 = 2;
@@ -14,6 +15,7 @@ const CROSS: i32 = 2;
 const RANDOM: i32 = 3;
 
 /// Faces of a cube: right, left, up, down, front, back.
+pub(crate) const FACES: usize = 6;
 const UP: usize = 2;
 const DOWN: usize = 3;
 const FRONT: usize = 4;
@@ -26,31 +28,52 @@ fn sigmoid(t: f64) -> f64 {
     0.5 + std::f64::consts::FRAC_1_SQRT_2 * u / (1.0 + u * u).sqrt()
 }
 
-/// The colour of a flat texture at coordinates that repeat from 0 to 1, v downwards; in sRGB.
-pub(crate) fn flat(t: &Texture, [u, v]: [f64; 2]) -> Vec3 {
-    color(t, [u - u.floor(), v - v.floor()], 0)
+/// A place of a texture: a face, 0 for a flat texture, and coordinates on it from 0 to 1, v downwards. Those of a flat texture repeat.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Place {
+    pub(crate) face: usize,
+    pub(crate) at: [f64; 2],
 }
 
-/// The colour of a cube texture in a direction, in sRGB.
-pub(crate) fn cube(t: &Texture, direction: Vec3) -> Vec3 {
-    let [x, y, z] = direction;
-    let [a, b, c] = direction.map(f64::abs);
-    // The faces of OpenGL's cube maps: the larger coordinate decides, and the others run to the right and downwards.
-    let (face, s, r, m) = if a >= b && a >= c {
-        if x > 0.0 { (0, -z, -y, a) } else { (1, z, -y, a) }
-    } else if b >= c {
-        if y > 0.0 { (UP, x, z, b) } else { (DOWN, x, -z, b) }
-    } else if z > 0.0 {
-        (FRONT, x, -y, c)
-    } else {
-        (FRONT + 1, -x, -y, c)
-    };
-    color(t, [0.5 * (s / m + 1.0), 0.5 * (r / m + 1.0)], face)
+impl Place {
+    pub(crate) fn flat(at: [f64; 2]) -> Place {
+        Place { face: 0, at }
+    }
+
+    /// The place of a cube texture in a direction.
+    pub(crate) fn cube([x, y, z]: Vec3) -> Place {
+        let [a, b, c] = [x, y, z].map(f64::abs);
+        // The faces of OpenGL's cube maps: the larger coordinate decides, and the others run to the right and downwards.
+        let (face, s, r, m) = if a >= b && a >= c {
+            if x > 0.0 { (0, -z, -y, a) } else { (1, z, -y, a) }
+        } else if b >= c {
+            if y > 0.0 { (UP, x, z, b) } else { (DOWN, x, -z, b) }
+        } else if z > 0.0 {
+            (FRONT, x, -y, c)
+        } else {
+            (FRONT + 1, -x, -y, c)
+        };
+        Place { face, at: [0.5 * (s / m + 1.0), 0.5 * (r / m + 1.0)] }
+    }
+
+    /// A direction of a place of a cube texture, which also may be a little beyond the border of its face.
+    pub(crate) fn direction(self) -> Vec3 {
+        let [s, r] = self.at.map(|u| 2.0 * u - 1.0);
+        match self.face {
+            0 => [1.0, -r, -s],
+            1 => [-1.0, -r, s],
+            UP => [s, 1.0, r],
+            DOWN => [s, -1.0, -r],
+            FRONT => [s, -r, 1.0],
+            _ => [-s, -r, -1.0],
+        }
+    }
 }
 
-/// The colour at a place of a face, from 0 to 1.
-fn color(t: &Texture, [u, v]: [f64; 2], face: usize) -> Vec3 {
+/// The colour of a builtin texture, in sRGB.
+pub(crate) fn color(t: &Texture, Place { face, at }: Place) -> Vec3 {
     let is_flat = t.kind == FLAT_KIND;
+    let [u, v] = if is_flat { at.map(|u| u - u.floor()) } else { at };
     let [width, height] = [t.size[0], if is_flat { t.size[1] } else { t.size[0] }];
     if t.builtin == 0 || width <= 0 || height <= 0 {
         return WHITE;
@@ -122,21 +145,36 @@ mod tests {
     #[test]
     fn the_fields_of_a_checker_alternate() {
         let t = checker();
-        assert_eq!(flat(&t, [0.25, 0.25]), t.rgb1);
-        assert_eq!(flat(&t, [0.75, 0.25]), t.rgb2);
-        assert_eq!(flat(&t, [-0.25, 3.75]), t.rgb1);
+        assert_eq!(color(&t, Place::flat([0.25, 0.25])), t.rgb1);
+        assert_eq!(color(&t, Place::flat([0.75, 0.25])), t.rgb2);
+        assert_eq!(color(&t, Place::flat([-0.25, 3.75])), t.rgb1);
     }
 
     #[test]
     fn the_sky_is_the_first_colour_above_and_the_second_below() {
         let t = Texture { kind: SKY_KIND, builtin: GRADIENT, ..checker() };
-        let [above, level, below] = [[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, -1.0, 0.0]].map(|d| cube(&t, d));
+        let [above, level, below] =
+            [[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, -1.0, 0.0]].map(|d| color(&t, Place::cube(d)));
         assert_eq!((above, below), (t.rgb1, t.rgb2));
         assert!((level[0] - 0.5).abs() < 1e-12 && (level[2] - 0.5).abs() < 1e-12, "{level:?}");
     }
 
     #[test]
-    fn a_texture_from_a_file_changes_no_colour() {
-        assert_eq!(flat(&Texture::default(), [0.1, 0.2]), WHITE);
+    fn a_direction_has_its_place_and_beyond_a_border_is_the_next_face() {
+        for face in 0..FACES {
+            for at in [[0.1, 0.2], [0.9, 0.3], [0.5, 0.99]] {
+                let place = Place::cube(Place { face, at }.direction());
+                assert_eq!(place.face, face);
+                assert!((0..2).all(|i| (place.at[i] - at[i]).abs() < 1e-12), "{face} {at:?} {place:?}");
+            }
+        }
+        // To the right of the front is the right face, at its left border.
+        let Place { face, at: [u, v] } = Place::cube(Place { face: FRONT, at: [1.01, 0.4] }.direction());
+        assert!(face == 0 && (0.0..0.02).contains(&u) && (v - 0.4).abs() < 0.01, "{face} {u} {v}");
+    }
+
+    #[test]
+    fn a_texture_without_its_file_changes_no_colour() {
+        assert_eq!(color(&Texture::default(), Place::flat([0.1, 0.2])), WHITE);
     }
 }

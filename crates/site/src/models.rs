@@ -6,11 +6,17 @@
 use labspec::bind::scene::Models;
 use labspec::lint::ModelFolder;
 use labspec::source::read_text;
+use labspec::spec::{Lab, ModelSource};
+use labspec_core::Model;
+use labspec_core::xml::{Files, Folder};
+use labspec_scene::Images;
 use std::collections::BTreeMap;
 use std::path::{Component, Path, PathBuf};
 
 /// The maximum size of a model's text in bytes.
 const MAX_TEXT: u64 = 16 << 20;
+/// The maximum size of the picture of a texture in bytes.
+const MAX_IMAGE: usize = 64 << 20;
 
 /// The folders of models of a course.
 #[derive(Debug, Default)]
@@ -101,6 +107,16 @@ impl ModelShelf {
         }
         Delivery::Files
     }
+}
+
+/// The pictures of the textures of a lab's model. A model in the text of a lesson names no files.
+pub(crate) fn texture_images(lab: &Lab, models: &Models, model: &Model) -> Images {
+    let path = match lab.scene() {
+        Some(ModelSource::Model(name)) => models.folder().path(&name.value),
+        _ => None,
+    };
+    let folder = path.and_then(|path| Folder::at(models.folder().root(), path.parent()?).ok());
+    Images::read(model, |file| folder.as_ref()?.read(file, MAX_IMAGE).ok())
 }
 
 /// The text of a model without comments, if a script element can contain it: nothing in it may end the element.

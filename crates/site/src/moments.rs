@@ -11,7 +11,7 @@ use labspec::run::rounded;
 use labspec::source::SourceFile;
 use labspec::spec::Lab;
 use labspec_core::{Data, Model, Obj, Planned};
-use labspec_scene::{Camera, Overlays, Picture, View, draw};
+use labspec_scene::{Camera, Images, Overlays, Picture, View, draw};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::ops::ControlFlow;
@@ -99,7 +99,7 @@ impl Moments {
 }
 
 /// How a lab shows its scene.
-fn view_of(lab: &Lab) -> View {
+fn view_of(lab: &Lab, images: Images) -> View {
     let mut overlays = Overlays::default();
     for (name, is_visible) in &lab.overlays {
         let overlay = match name.as_str() {
@@ -125,6 +125,7 @@ fn view_of(lab: &Lab) -> View {
         },
         overlays,
         force_scale: lab.force_scale(),
+        images,
         trail: Vec::new(),
         size: [WIDTH, lab.height().clamp(80.0, MOST_HIGH) as usize],
     }
@@ -142,12 +143,18 @@ struct DrawnRun<'r> {
     moments: &'r mut Moments,
 }
 
-/// The run of a lab as it loads, up to a time, s.
-pub(crate) fn moments(lab: &Lab, file: &SourceFile, model: &Model, programs: Programs, end: f64) -> Moments {
+/// The run of a lab as it loads, up to a time, s. `images` are the pictures of textures.
+pub(crate) fn moments(
+    lab: &Lab,
+    file: &SourceFile,
+    (model, images): (&Model, Images),
+    programs: Programs,
+    end: f64,
+) -> Moments {
     let mut moments = Moments::default();
     let mut run = DrawnRun {
         player: Player::of_compiled(lab, file, model, programs),
-        view: view_of(lab),
+        view: view_of(lab, images),
         traced: lab.trail.as_ref().and_then(|site| model.names.id(Obj::Site, site.as_str())),
         touching: Vec::new(),
         end,
@@ -288,7 +295,7 @@ mod tests {
         let (model, programs, errors) =
             check::bind(lab, &Models::new(ModelFolder::unknown()), &mut Vec::new()).unwrap();
         assert_eq!(errors, 0);
-        moments(lab, &lesson.file, &model, programs, end)
+        moments(lab, &lesson.file, (&model, Images::default()), programs, end)
     }
 
     fn captions(moments: &Moments) -> Vec<&str> {

@@ -3,6 +3,7 @@
 //! The run is the one of `labspec run` without options: as the lab loads, until its end.
 
 use crate::html::{Addresses, harmless};
+use crate::models::texture_images;
 use crate::moments::{Moments, moments};
 use crate::text::escape;
 use labspec::bind::Programs;
@@ -16,6 +17,7 @@ use labspec::spec::{ControlKind, Lab, Plot, Question, QuestionKind, Quiz};
 use labspec::stress::{ComparedRun, compared_runs, comparison_rows, join_runs, watched_run};
 use labspec_core::Model;
 use labspec_plot::{Chart, Series, line_chart};
+use labspec_scene::Images;
 use std::fmt::Write;
 use std::sync::Arc;
 
@@ -66,7 +68,7 @@ pub(crate) fn lab_twin(
     }
     match run_lab(lab, models) {
         Ok(runs) => {
-            drawn = moments(lab, file, &runs.model, runs.programs, runs.end);
+            drawn = moments(lab, file, (&runs.model, runs.images), runs.programs, runs.end);
             out.push_str(&drawn.html(lab.title(), address));
             match runs.tables {
                 LabTables::One(table) => out.push_str(&results(lab, &table)),
@@ -91,6 +93,8 @@ pub(crate) fn lab_twin(
 struct LabRuns {
     tables: LabTables,
     model: Arc<Model>,
+    /// The pictures of its textures.
+    images: Images,
     programs: Programs,
     /// The time at the end of the run, s.
     end: f64,
@@ -121,7 +125,8 @@ fn run_lab(lab: &Lab, models: Option<&Models>) -> Result<LabRuns, String> {
         LabTables::Compared(runs) => runs.first().map(|run| &run.table),
     };
     let end = table.and_then(|table| table.rows.last()?.first()).map_or(0.0, Cell::number);
-    Ok(LabRuns { tables, model, programs, end })
+    let images = texture_images(lab, models, &model);
+    Ok(LabRuns { tables, model, images, programs, end })
 }
 
 fn results(lab: &Lab, table: &Table) -> String {

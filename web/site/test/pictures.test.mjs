@@ -1,7 +1,9 @@
 // The pictures that `labspec build` draws, beside those that the elements draw: of every lab of the course, at its start.
 import assert from "node:assert/strict";
+import { mkdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import test, { after } from "node:test";
+import { png } from "../../elements/test/page/png.mjs";
 import { chromiumOnly, folder, labspec, launch, open, opened, repository, serve } from "./pages.mjs";
 
 const suite = { after };
@@ -22,6 +24,8 @@ const MOST_PIXELS = 0.001;
  * poster is cut at both sides as the style sheet does.
  */
 async function compare(id, most) {
+  // What has come into view is drawn in the next frame.
+  for (let frame = 0; frame < 3; frame++) await new Promise(requestAnimationFrame);
   const lab = document.getElementById(id);
   const canvas = lab.shadowRoot.querySelector(".view canvas");
   const poster = new Image();
@@ -53,23 +57,61 @@ async function compare(id, most) {
   return { share: wrong / (width * height), size: [width, height], poster: [poster.naturalWidth, poster.naturalHeight] };
 }
 
+/** Compares all labs of a page; gives their number. */
+async function compareLabs(t, page, name) {
+  await page.goto(name);
+  const ids = await page.locator("sim-lab").evaluateAll((all) => all.map((lab) => lab.id));
+  for (const id of ids) {
+    await page.locator(`#${id}`).scrollIntoViewIfNeeded();
+    await opened(page, `#${id}`);
+    await page.waitForFunction((s) => document.getElementById(s).shadowRoot.querySelector(".poster") === null, id);
+    const { share, size, poster } = await page.evaluate(`(${compare.toString()})(${JSON.stringify(id)}, ${MOST})`);
+    t.diagnostic(`${name.split("/").at(-1)} ${id}: ${(100 * share).toFixed(2)} % of ${size.join(" × ")} pixels differ`);
+    assert.ok(share < MOST_PIXELS, `${name} #${id}: ${100 * share} % of the pixels differ (${size.join(" × ")}, poster ${poster.join(" × ")})`);
+  }
+  return ids.length;
+}
+
 test("the poster of each lab is what the lab draws", async (t) => {
   const { page, none } = await open(t, browser, site);
   const names = await page.locator(".lessons h2 a").evaluateAll((links) => links.map((link) => link.href));
   let compared = 0;
-  for (const name of names) {
-    await page.goto(name);
-    for (const id of await page.locator("sim-lab").evaluateAll((all) => all.map((lab) => lab.id))) {
-      await page.locator(`#${id}`).scrollIntoViewIfNeeded();
-      await opened(page, `#${id}`);
-      await page.waitForFunction((s) => document.getElementById(s).shadowRoot.querySelector(".poster") === null, id);
-      const { share, size, poster } = await page.evaluate(`(${compare.toString()})(${JSON.stringify(id)}, ${MOST})`);
-      t.diagnostic(`${name.split("/").at(-1)} ${id}: ${(100 * share).toFixed(2)} % of ${size.join(" × ")} pixels differ`);
-      assert.ok(share < MOST_PIXELS, `${name} #${id}: ${100 * share} % of the pixels differ (${size.join(" × ")}, poster ${poster.join(" × ")})`);
-      compared += 1;
-    }
-  }
+  for (const name of names) compared += await compareLabs(t, page, name);
   assert.equal(compared, 19);
+  none();
+});
+
+/**
+ * A picture of smooth colours, so that the order of its rows and columns is seen everywhere. It is light: where black meets the page, the four
+ * samples of a browser and the eight of the poster differ by more than 40 of 255.
+ */
+const shaded = (side) => png(Array.from({ length: side }, (_, y) => Array.from({ length: side }, (_, x) => [150 + 100 * x / side, 150 + 100 * y / side, x + y < side ? 150 : 250].map(Math.round))));
+
+test("textures from files are on the poster as the lab draws them", async (t) => {
+  const lessons = join(folder(t), "lessons");
+  mkdirSync(join(lessons, "models/pictures"), { recursive: true });
+  writeFileSync(join(lessons, "models/pictures/shaded.png"), shaded(64));
+  // Six faces in three rows of four.
+  writeFileSync(join(lessons, "models/pictures/cross.png"), png(Array.from({ length: 96 }, (_, y) => Array.from({ length: 128 }, (_, x) => [2 * x, y + 100, 60 * Math.floor(x / 32)]))));
+  const flat = (attributes) => `<texture name="t" type="2d" file="shaded.png"/><material name="m" texture="t" specular="0" ${attributes}/>`;
+  const cube = (attributes) => `<texture name="t" type="cube" file="cross.png" gridsize="3 4" gridlayout=".U..LFRB.D.." ${attributes}/><material name="m" texture="t" specular="0"/>`;
+  const models = {
+    floor: [flat('texrepeat="2 2"'), '<geom type="plane" size="0 0 1" material="m"/><geom size=".1" pos="0 0 .1"/>'],
+    tiles: [flat('texrepeat="3 2" texuniform="true"'), '<geom type="plane" size="1 1 .1" material="m"/>'],
+    box: [flat(""), '<geom type="box" size=".2 .3 .4" material="m"/>'],
+    ball: [cube('hflip="true"'), '<geom size=".3" material="m"/><geom type="cylinder" size=".1 .3" pos="0 .6 0" material="m"/>'],
+    sky: [cube("").replace('type="cube"', 'type="skybox"').replace(/<material.*/, ""), '<geom size=".1"/>'],
+  };
+  for (const [name, [asset, geoms]] of Object.entries(models)) {
+    writeFileSync(join(lessons, `models/${name}.xml`), `<mujoco><compiler texturedir="pictures"/><asset>${asset}</asset><worldbody>${geoms}</worldbody></mujoco>`);
+  }
+  const labs = Object.keys(models).map((model) => `\`\`\`lab simlab\n{"model": "${model}"}\n\`\`\`\n`);
+  writeFileSync(join(lessons, "a.md"), `# Textures\n\n${labs.join("\n")}`);
+  const made = labspec("build", lessons, "--out", join(lessons, "../site"));
+  assert.equal(made.status, 0, made.stdout + made.stderr);
+  const { url } = await serve(t, join(lessons, "../site"));
+  const { page, none } = await open(t, browser, url);
+  assert.equal(await compareLabs(t, page, `${url}a.html`), labs.length);
   none();
 });
 

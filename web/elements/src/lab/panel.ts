@@ -197,13 +197,11 @@ export async function openPanel(spec: LabSpec, models: Models, { state, poster }
     if (!(relatedTarget instanceof Node && element.contains(relatedTarget))) viewport.grab(null);
   });
   for (const plot of plots) plot.add(opened.frame.rows, opened.shown.length + 1);
-  void allTextures(opened.textures, viewport.textures, models).then((textures) => {
-    if (textures !== null) viewport.setTextures(textures);
-  });
+  const textures = allTextures(opened.textures, viewport.textures, models).catch(() => null);
   // Drivers take long for the first picture. The rest of the lab is painted before it.
   requestAnimationFrame(() => {
     show();
-    setTimeout(() => viewport.begin(), 0);
+    setTimeout(() => viewport.begin(textures), 0);
   });
   return {
     element, remote, player, move, say: spoken.say, describe, save,

@@ -14,13 +14,12 @@ export interface Viewport {
   readonly element: HTMLElement;
   /** Whether there is a picture. */
   readonly isDrawn: boolean;
-  /** Draws the first picture. */
-  begin(): void;
+  /** Draws the first picture, and draws it again with the textures of files (`null`: there are none). */
+  begin(fileTextures: Promise<readonly SceneTexture[] | null>): void;
   /** The textures of the model, by id. */
   readonly textures: readonly SceneTexture[];
   /** New constants of the model; the textures stay. */
   setModel(model: SceneModel): void;
-  setTextures(textures: readonly SceneTexture[]): void;
   setFrame(frame: SceneFrame): void;
   clearTrail(): void;
   draw(): void;
@@ -91,16 +90,19 @@ export function createViewport(opened: Opened, spec: LabSpec, poster: string | n
       model = next;
       view?.setModel({ ...model, textures });
     },
-    setTextures(next) {
-      textures = next;
-      view?.setModel({ ...model, textures });
-      view?.draw();
-    },
-    begin() {
+    begin(fileTextures) {
       isBegun = true;
       view?.setFrame(state.frame);
       view?.draw();
-      firstPicture?.remove();
+      // The picture of a site builder has the textures of files.
+      void fileTextures.then((next) => {
+        if (next !== null) {
+          textures = next;
+          view?.setModel({ ...model, textures });
+          view?.draw();
+        }
+        firstPicture?.remove();
+      });
     },
     setFrame(frame) {
       state.frame = frame;
