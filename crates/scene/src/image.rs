@@ -182,7 +182,7 @@ impl Pixels {
     }
 
     /// A picture of this size whose pixel at a column and a row is the one that `from` names.
-    fn taken(&self, [width, height]: [usize; 2], from: impl Fn(usize, usize) -> [usize; 2]) -> Pixels {
+    fn selected(&self, [width, height]: [usize; 2], from: impl Fn(usize, usize) -> [usize; 2]) -> Pixels {
         let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
         let rgba = places.map(|(x, y)| from(x, y)).map(|[x, y]| self.get(x, y)).collect();
         Pixels { width, height, rgba }
@@ -194,7 +194,7 @@ impl Pixels {
         let turned = |flip: bool, i: usize, count: usize| if flip { count - 1 - i } else { i };
         match flip {
             [false, false] => self,
-            _ => self.taken([width, height], |x, y| [turned(flip[0], x, width), turned(flip[1], y, height)]),
+            _ => self.selected([width, height], |x, y| [turned(flip[0], x, width), turned(flip[1], y, height)]),
         }
     }
 
@@ -242,7 +242,7 @@ fn cut_faces(picture: &Pixels, t: &Texture) -> Option<Vec<Arc<Levels>>> {
         let cell = cells.iter().take(rows * columns).rposition(|cell| *cell == Some(face));
         let Some(cell) = cell else { return Pixels::plain(t, side) };
         let [left, top] = [cell % columns * side, cell / columns * side];
-        picture.taken([side, side], |x, y| [left + x, top + y])
+        picture.selected([side, side], |x, y| [left + x, top + y])
     };
     (0..FACES).map(|i| square(face(i), side)).collect()
 }
