@@ -194,7 +194,9 @@ impl Pixels {
         let turned = |flip: bool, i: usize, count: usize| if flip { count - 1 - i } else { i };
         match flip {
             [false, false] => self,
-            _ => self.selected([width, height], |x, y| [turned(flip[0], x, width), turned(flip[1], y, height)]),
+            _ => {
+                self.selected([width, height], |x, y| [turned(flip[0], x, width), turned(flip[1], y, height)])
+            }
         }
     }
 
