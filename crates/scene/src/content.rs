@@ -10,6 +10,7 @@ use labspec_core::math::{
     Vec3, add, add_scaled, dot, mat_mul_vec, mat_t_mul_vec, norm, normalize, rows, scale, sub,
 };
 use labspec_core::{Data, Full, Model, geom};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// How a surface answers light, as MuJoCo's materials.
@@ -85,7 +86,8 @@ pub(crate) struct Content {
 }
 
 impl Content {
-    pub(crate) fn new(m: &Model, d: &Data<Full>, view: &View, eye: &Eye) -> Content {
+    /// `None`: the surfaces of meshes and height fields have too many triangles.
+    pub(crate) fn new(m: &Model, d: &Data<Full>, view: &View, eye: &Eye) -> Option<Content> {
         let reach = plane_reach(m, eye);
         let mut content = Content {
             solids: Vec::new(),
@@ -93,10 +95,10 @@ impl Content {
             grid_cell: grid_cell(m),
             fading: [0.15 * reach, 0.8 * reach],
         };
-        push_geoms(m, d, eye, &mut content.solids);
+        push_geoms(m, d, eye, &mut content.solids)?;
         push_tendons(m, d, &mut content.solids);
         push_overlays(m, d, view, eye, &mut content);
-        content
+        Some(content)
     }
 }
 
@@ -190,7 +192,7 @@ fn grid_cell(m: &Model) -> f64 {
 }
 
 /// A plane; one without a size reaches to the horizon, and its middle follows the eye.
-fn plane(m: &Model, id: usize, (origin, rotation): (Vec3, [f64; 9]), eye: &Eye) -> Solid {
+fn plane_solid(m: &Model, id: usize, (origin, rotation): (Vec3, [f64; 9]), eye: &Eye) -> Solid {
     let size = vector(&m.geom_size, id);
     let is_endless = size[0] <= 0.0 || size[1] <= 0.0;
     let mat = id_of(&m.geom_matid, id);
@@ -234,15 +236,48 @@ fn is_mirror(solid: &Solid, eye: &Eye) -> bool {
     solid.material.reflectance > 0.0 && solid.color[3] >= 1.0 && dot(sub(eye.position, point), normal) > 0.0
 }
 
-fn push_geoms(m: &Model, d: &Data<Full>, eye: &Eye, solids: &mut Vec<Solid>) {
+/// The most triangles of all surfaces: 200 MB.
+const MAX_TRIANGLES: usize = 1 << 20;
+
+/// The surfaces of meshes and height fields. Geoms of the same one share it.
+struct Surfaces {
+    built: BTreeMap<(i32, usize), Arc<Triangles>>,
+    /// Triangles that still may be built.
+    left: usize,
+}
+
+impl Surfaces {
+    /// The surface of a mesh or a height field. `None`: it has too many triangles.
+    fn get(&mut self, m: &Model, kind: i32, id: usize) -> Option<Arc<Triangles>> {
+        if let Some(built) = self.built.get(&(kind, id)) {
+            return Some(built.clone());
+        }
+        let of = if kind == geom::MESH { Triangles::of_mesh } else { Triangles::of_height_field };
+        let surface = Arc::new(of(m, id));
+        self.left = self.left.checked_sub(surface.count())?;
+        self.built.insert((kind, id), surface.clone());
+        Some(surface)
+    }
+}
+
+/// `None`: the surfaces have too many triangles.
+fn push_geoms(m: &Model, d: &Data<Full>, eye: &Eye, solids: &mut Vec<Solid>) -> Option<()> {
+    let mut surfaces = Surfaces { built: BTreeMap::new(), left: MAX_TRIANGLES };
     let mut has_mirror = false;
     for (id, kind) in m.geom_type.iter().copied().enumerate() {
         let Some(place) = pose(&d.geom_xpos, &d.geom_xmat, id).filter(|_| is_visible(&m.geom_group, id))
         else {
             continue;
         };
-        let mut solid =
-            if kind == geom::PLANE { plane(m, id, place, eye) } else { geom_solid(m, id, kind, place) };
+        let data = id_of(&m.geom_dataid, id);
+        let (shape, scale) = match (kind, data) {
+            (geom::MESH | geom::HFIELD, Some(data)) => (Shape::Mesh(surfaces.get(m, kind, data)?), [1.0; 3]),
+            _ => primitive(kind, vector(&m.geom_size, id)),
+        };
+        let mut solid = match kind {
+            geom::PLANE => plane_solid(m, id, place, eye),
+            _ => geom_solid(m, id, (shape, scale), place),
+        };
         if solid.color[3] <= 0.0 {
             continue;
         }
@@ -251,18 +286,18 @@ fn push_geoms(m: &Model, d: &Data<Full>, eye: &Eye, solids: &mut Vec<Solid>) {
         has_mirror |= solid.pattern.mirror;
         solids.push(solid);
     }
+    Some(())
 }
 
-fn geom_solid(m: &Model, id: usize, kind: i32, (position, rotation): (Vec3, [f64; 9])) -> Solid {
+/// The solid of a geom that is no plane.
+fn geom_solid(
+    m: &Model,
+    id: usize,
+    (shape, scale): (Shape, Vec3),
+    (position, rotation): (Vec3, [f64; 9]),
+) -> Solid {
+    let kind = m.geom_type.get(id).copied().unwrap_or(geom::SPHERE);
     let size = vector(&m.geom_size, id);
-    let data = id_of(&m.geom_dataid, id);
-    let (shape, scale) = match (kind, data) {
-        (geom::MESH, Some(mesh)) => (Shape::Mesh(Arc::new(Triangles::of_mesh(m, mesh))), [1.0; 3]),
-        (geom::HFIELD, Some(field)) => {
-            (Shape::Mesh(Arc::new(Triangles::of_height_field(m, field))), [1.0; 3])
-        }
-        _ => primitive(kind, size),
-    };
     let mat = id_of(&m.geom_matid, id);
     let color = color_of(m, &m.geom_rgba, id, mat).unwrap_or(palette::GEOM);
     Solid {
@@ -301,8 +336,8 @@ pub(crate) fn rotation_to_z(along: Vec3) -> [f64; 9] {
     [x[0], y[0], z[0], x[1], y[1], z[1], x[2], y[2], z[2]]
 }
 
-/// A tube with round ends between two points.
-pub(crate) fn tube(from: Vec3, to: Vec3, radius: f64) -> Option<Placed> {
+/// A capsule between two points.
+pub(crate) fn capsule_between(from: Vec3, to: Vec3, radius: f64) -> Option<Placed> {
     let along = sub(to, from);
     let length = norm(along);
     (length > 0.0 && length.is_finite()).then(|| Placed {
@@ -362,7 +397,7 @@ fn push_tendons(m: &Model, d: &Data<Full>, solids: &mut Vec<Solid>) {
                 Ok(geom) if from == to => wrap_arc(m, d, geom, a, b),
                 _ => vec![a, b],
             };
-            for placed in path.windows(2).filter_map(|pair| tube(pair[0], pair[1], radius)) {
+            for placed in path.windows(2).filter_map(|pair| capsule_between(pair[0], pair[1], radius)) {
                 let casts_shadow = color[3] >= 1.0;
                 solids.push(Solid {
                     placed,

@@ -86,8 +86,8 @@ impl Eye {
         2.0 * self.half_height * depth / self.size[1]
     }
 
-    /// How far a point on a plane moves from a pixel to the next one, to the right and downwards, m.
-    pub(crate) fn moves(&self, ray: &Ray, normal: Vec3, point: Vec3) -> [Vec3; 2] {
+    /// How far a point on a plane moves from a pixel to the next one, to the right and upwards, m.
+    pub(crate) fn pixel_derivatives(&self, ray: &Ray, normal: Vec3, point: Vec3) -> [Vec3; 2] {
         let pixel = self.pixel_at(self.depth(point));
         let along = dot(ray.direction, normal);
         let moved = |axis: Vec3| {
@@ -115,7 +115,7 @@ impl Eye {
         if near <= 0.05 * radius.max(1e-9) || !radius.is_finite() {
             return all;
         }
-        // Seen from the eye, the ball is inside a square at its nearest depth or at its middle, whichever is larger.
+        // Seen from the eye, the ball is inside a square at its nearest depth or at its farthest one, whichever is larger.
         let scale = height / (2.0 * self.half_height);
         let range = |axis: Vec3, middle: f64, most: f64, sign: f64| {
             let offset = sign * dot(away, axis);

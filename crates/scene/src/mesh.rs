@@ -28,12 +28,12 @@ struct Node {
     second: Option<usize>,
 }
 
-/// A box with so many triangles is not divided.
-const FEW: usize = 4;
-/// More levels than any tree has whose boxes are halved.
-const DEEPEST: usize = 64;
+/// A box with no more triangles is not divided.
+const MAX_LEAF_TRIANGLES: usize = 4;
+/// More levels than any tree has whose lists of triangles are halved.
+const MAX_DEPTH: usize = 64;
 
-/// The row of a field that holds three numbers in each.
+/// A row of a field with N numbers in each; zeros if there is no such row.
 fn row<const N: usize, T: Copy + Default>(list: &[T], index: usize) -> [T; N] {
     list.as_chunks::<N>().0.get(index).copied().unwrap_or([T::default(); N])
 }
@@ -42,7 +42,7 @@ fn index(list: &[i32], at: usize) -> usize {
     list.get(at).and_then(|i| usize::try_from(*i).ok()).unwrap_or(0)
 }
 
-/// The most points of a height field that are drawn along one side: more than a picture has pixels for.
+/// The most points of a height field that are drawn along one side: about every second pixel of a picture of 800 pixels.
 const MOST_POINTS: usize = 400;
 
 /// The points of one side of a height field that are drawn: at equal distances, with both ends.
@@ -62,9 +62,14 @@ impl Triangles {
         let mut nodes = Vec::new();
         let count = triangles.len();
         if count > 0 {
-            divide(&mut triangles, 0, count, &mut nodes, 0);
+            build_tree(&mut triangles, 0, count, &mut nodes, 0);
         }
         Triangles { triangles, nodes }
+    }
+
+    /// The number of triangles.
+    pub(crate) fn count(&self) -> usize {
+        self.triangles.len()
     }
 
     /// A mesh of a model.
@@ -207,7 +212,7 @@ fn meets_triangle([a, b, c]: &[Corner; 3], o: Vec3, d: Vec3) -> Option<(f64, f64
 }
 
 /// Puts triangles `first` to `end` into a tree, halved along the longest side of their box. Returns the place of its root.
-fn divide(
+fn build_tree(
     triangles: &mut [[Corner; 3]],
     first: usize,
     end: usize,
@@ -224,7 +229,7 @@ fn divide(
     }
     let place = nodes.len();
     nodes.push(Node { low, high, first, end, second: None });
-    if part.len() <= FEW || depth >= DEEPEST {
+    if part.len() <= MAX_LEAF_TRIANGLES || depth >= MAX_DEPTH {
         return place;
     }
     let sides = sub(high, low);
@@ -232,8 +237,8 @@ fn divide(
     let middle = |t: &[Corner; 3]| t.iter().map(|c| c.position[axis]).sum::<f64>();
     part.sort_by(|a, b| middle(a).total_cmp(&middle(b)));
     let half = first + part.len() / 2;
-    divide(triangles, first, half, nodes, depth + 1);
-    let second = divide(triangles, half, end, nodes, depth + 1);
+    build_tree(triangles, first, half, nodes, depth + 1);
+    let second = build_tree(triangles, half, end, nodes, depth + 1);
     if let Some(node) = nodes.get_mut(place) {
         node.second = Some(second);
     }

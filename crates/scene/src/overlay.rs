@@ -1,7 +1,7 @@
 //! What is drawn over a scene: sites, frames, joints, centres of mass, cameras, contacts, forces, the path of a point.
 
 use crate::View;
-use crate::content::{Content, Material, PLAIN, Pattern, Solid, rotation_to_z, site_solid, tube};
+use crate::content::{Content, Material, PLAIN, Pattern, Solid, capsule_between, rotation_to_z, site_solid};
 use crate::eye::{Eye, pose};
 use crate::palette::{self, Color};
 use crate::shape::{Placed, Shape};
@@ -65,7 +65,7 @@ impl Overlay<'_> {
             self.eye.depth(add_scaled(from, [to[0] - from[0], to[1] - from[1], to[2] - from[2]], 0.5));
         let radius = 0.5 * palette::LINE_WIDTH * self.eye.pixel_at(depth);
         if radius > 0.0
-            && let Some(placed) = tube(from, to, radius)
+            && let Some(placed) = capsule_between(from, to, radius)
         {
             self.push(placed, color, Pattern::default());
         }

@@ -6,6 +6,7 @@ use crate::eye::Eye;
 use crate::light::Lights;
 use crate::surface::{Scene, Visible};
 use labspec_core::{Data, Full, Model};
+use std::cell::Cell;
 
 /// A picture: rows from top to bottom, three bytes for each pixel: red, green, blue.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -50,30 +51,33 @@ const SAMPLES: [[f64; 2]; 8] = [
     [0.4375, 0.9375],
 ];
 
-/// The most that is done for the first ray of all pixels, in tests whether a ray meets a shape: a few seconds.
-const MOST_TESTS: usize = 1_000_000_000;
+/// The most tests whether a ray meets a shape, for all rays of a picture: a few seconds.
+const MAX_TESTS: usize = 200_000_000;
 
-/// Draws a scene. `None` if it has so many shapes that this would take longer than anybody waits (4,000 that cast shadows, in a picture of
-/// 800 × 300 pixels).
+/// Draws a scene. `None` if it has so many shapes that this takes longer than a few seconds (6,000 that cast shadows, in a picture of
+/// 800 × 300 pixels), or surfaces of more than a million triangles.
 ///
 /// The data have all fields of their state (`forward`).
 pub fn draw(m: &Model, d: &Data<Full>, view: &View) -> Option<Picture> {
     let size = view.size.map(|side| side.min(View::MAX_SIDE));
     let eye = Eye::new(&view.camera, m, size);
-    let content = Content::new(m, d, view, &eye);
+    let content = Content::new(m, d, view, &eye)?;
     let lights = Lights::new(m, d, &eye, &content.solids, view.overlays.shadows);
     let near = 1e-4 * m.stat.extent.max(1e-6);
     let tiles = Tiles::new(&content, &eye, size);
     let [width, height] = size;
-    if tiles.tests().saturating_add(width * height * lights.casters()) > MOST_TESTS {
+    if tiles.tests().saturating_add(width * height * lights.shadow_tests()) > MAX_TESTS {
         return None;
     }
     let all = (0..content.solids.len() as u32).collect();
-    let scene = Scene { m, content, all, lights, eye, images: &view.images, near };
+    let scene = Scene { m, content, all, lights, eye, images: &view.images, near, tests: Cell::new(0) };
     let mut rgb = vec![0; 3 * width * height];
     for (y, row) in rgb.chunks_exact_mut((3 * width).max(1)).enumerate() {
         for (x, pixel) in row.as_chunks_mut::<3>().0.iter_mut().enumerate() {
             *pixel = bytes(one_ray(&scene, &tiles, [x, y], [0.5, 0.5]));
+        }
+        if scene.tests.get() > MAX_TESTS {
+            return None;
         }
     }
     let plain = rgb.clone();
@@ -88,6 +92,9 @@ pub fn draw(m: &Model, d: &Data<Full>, view: &View) -> Option<Picture> {
             if neighbours.filter_map(|(x, y)| at(*x, *y)).any(differs) {
                 *pixel = bytes(mean(SAMPLES.map(|place| one_ray(&scene, &tiles, [x, y], place))));
             }
+        }
+        if scene.tests.get() > MAX_TESTS {
+            return None;
         }
     }
     Some(Picture { width, height, rgb })

@@ -63,7 +63,7 @@ impl Placed {
         let (o, d) = (divided(start), divided(direction));
         let within = |t: f64| t > from && t < to;
         let (distance, normal, uv) = match &self.shape {
-            Shape::Plane => plane(o, d),
+            Shape::Plane => hit_plane(o, d),
             Shape::Box => cube(o, d),
             Shape::Ball => ball(o, d, [0.0; 3]),
             Shape::Capsule(half) => capsule(o, d, half / scale[2]),
@@ -100,7 +100,7 @@ impl Placed {
     }
 }
 
-fn plane(o: Vec3, d: Vec3) -> Option<UnitHit> {
+fn hit_plane(o: Vec3, d: Vec3) -> Option<UnitHit> {
     let t = -o[2] / d[2];
     let [x, y, _] = add_scaled(o, d, t);
     (x.abs() <= 1.0 && y.abs() <= 1.0).then_some((t, [0.0, 0.0, 1.0], [0.0; 2]))
@@ -139,12 +139,12 @@ fn ball(o: Vec3, d: Vec3, center: Vec3) -> Option<UnitHit> {
 }
 
 /// Where a ray enters x² + y² = 1.
-fn tube(o: Vec3, d: Vec3) -> Option<f64> {
+fn hit_tube(o: Vec3, d: Vec3) -> Option<f64> {
     first_root(d[0] * d[0] + d[1] * d[1], o[0] * d[0] + o[1] * d[1], o[0] * o[0] + o[1] * o[1] - 1.0)
 }
 
 fn capsule(o: Vec3, d: Vec3, half: f64) -> Option<UnitHit> {
-    let side = tube(o, d).map(|t| (t, add_scaled(o, d, t))).filter(|(_, p)| p[2].abs() <= half);
+    let side = hit_tube(o, d).map(|t| (t, add_scaled(o, d, t))).filter(|(_, p)| p[2].abs() <= half);
     if let Some((t, p)) = side {
         return Some((t, [p[0], p[1], 0.0], [0.0; 2]));
     }
@@ -160,15 +160,15 @@ fn nearer(a: Option<UnitHit>, b: Option<UnitHit>) -> Option<UnitHit> {
 }
 
 fn cylinder(o: Vec3, d: Vec3) -> Option<UnitHit> {
-    let side = tube(o, d).map(|t| (t, add_scaled(o, d, t))).filter(|(_, p)| p[2].abs() <= 1.0);
+    let side = hit_tube(o, d).map(|t| (t, add_scaled(o, d, t))).filter(|(_, p)| p[2].abs() <= 1.0);
     if let Some((t, p)) = side {
         return Some((t, [p[0], p[1], 0.0], [0.0; 2]));
     }
-    lid(o, d, -d[2].signum(), -d[2].signum())
+    hit_cap(o, d, -d[2].signum(), -d[2].signum())
 }
 
 /// The disc of radius 1 at a height, whose normal points up or down.
-fn lid(o: Vec3, d: Vec3, height: f64, normal: f64) -> Option<UnitHit> {
+fn hit_cap(o: Vec3, d: Vec3, height: f64, normal: f64) -> Option<UnitHit> {
     let t = (height - o[2]) / d[2];
     let [x, y, _] = add_scaled(o, d, t);
     (normal * d[2] < 0.0 && x * x + y * y <= 1.0).then_some((t, [0.0, 0.0, normal], [0.0; 2]))
@@ -187,7 +187,7 @@ fn cone(o: Vec3, d: Vec3) -> Option<UnitHit> {
         let seen = (0.0..=1.0).contains(&z) && dot(normal, d) < 0.0;
         (b * b >= a * c && seen).then_some((t, normal, [0.0; 2]))
     };
-    nearer(nearer(side((-b - root) / a), side((-b + root) / a)), lid(o, d, 0.0, -1.0))
+    nearer(nearer(side((-b - root) / a), side((-b + root) / a)), hit_cap(o, d, 0.0, -1.0))
 }
 
 #[cfg(test)]
@@ -231,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn a_ray_that_meets_no_bound_meets_no_shape() {
+    fn every_hit_is_within_the_bound() {
         let shapes =
             [Shape::Box, Shape::Ball, Shape::Cylinder, Shape::Cone, Shape::Capsule(0.7), Shape::Plane];
         for shape in shapes {
@@ -242,17 +242,20 @@ mod tests {
                 _ => placed,
             };
             let (center, radius) = placed.bound();
+            let mut hits = 0;
             for i in 0..2000 {
                 let a = f64::from(i) * 0.7;
                 let aim = [a.sin() * 1.5, (a * 1.3).cos() * 1.5, (a * 0.37).sin() * 1.5];
                 let from = [-4.0, 1.0, 2.0];
                 let ray = Ray { from, direction: normalize(sub(aim, from)).0 };
                 let Some(hit) = placed.hit(&ray, 0.0, f64::INFINITY) else { continue };
+                hits += 1;
                 let away = sub(ray.point(hit.distance), center);
                 assert!(dot(away, away).sqrt() <= radius + 1e-9, "{placed:?}");
                 let faces = matches!(placed.shape, Shape::Plane) || dot(hit.normal, ray.direction) <= 1e-9;
                 assert!(faces, "{placed:?} {hit:?}");
             }
+            assert!(hits > 50, "{hits} {placed:?}");
         }
     }
 }

@@ -9,6 +9,7 @@ use crate::shape::{Hit, Shape};
 use crate::texture::{self, Place};
 use labspec_core::Model;
 use labspec_core::math::{Vec3, add, add_scaled, dot, mat_t_mul_vec, norm, scale, sub};
+use std::cell::Cell;
 
 /// Everything that a ray can meet.
 pub(crate) struct Scene<'s> {
@@ -21,6 +22,8 @@ pub(crate) struct Scene<'s> {
     pub(crate) images: &'s Images,
     /// The shortest distance at which something is seen, m.
     pub(crate) near: f64,
+    /// Tests whether a ray meets a shape, up to now.
+    pub(crate) tests: Cell<usize>,
 }
 
 /// A colour in sRGB, times its opacity.
@@ -65,6 +68,7 @@ const MOST_LAYERS: usize = 16;
 impl Scene<'_> {
     /// What a ray from the eye sees, among the solids that its pixel can show.
     pub(crate) fn visible(&self, ray: &Ray, solids: &[u32], overlays: &[u32]) -> Visible {
+        self.count_tests(overlays.len());
         let (surfaces, depth) = self.surfaces(ray, solids, true);
         let drawn = overlays.iter().filter_map(|i| self.content.overlays.get(*i as usize));
         let hits = drawn.filter_map(|solid| Some((solid.placed.hit(ray, self.near, f64::INFINITY)?, solid)));
@@ -84,10 +88,15 @@ impl Scene<'_> {
         scene.over(self.sky(ray))
     }
 
+    fn count_tests(&self, more: usize) {
+        self.tests.set(self.tests.get().saturating_add(more));
+    }
+
     /// What a ray sees of surfaces, and the distance of the first one that is not transparent.
     fn surfaces(&self, ray: &Ray, solids: &[u32], may_mirror: bool) -> (Visible, f64) {
         let (mut visible, mut from, mut opaque) = (CLEAR, self.near, f64::INFINITY);
         for _ in 0..MOST_LAYERS {
+            self.count_tests(solids.len());
             let all = solids.iter().filter_map(|i| self.content.solids.get(*i as usize));
             let mut nearest: Option<(Hit, &Solid)> = None;
             for solid in all {
@@ -138,6 +147,7 @@ impl Scene<'_> {
         }
         let normal = if is_behind { scale(hit.normal, -1.0) } else { hit.normal };
         let material = &solid.material;
+        self.count_tests(self.lights.shadow_tests());
         let arriving = self.lights.arriving(hit, normal, ray, material.shininess);
         let glossy = 0.5 * material.specular * if solid.pattern.grid { 0.15 } else { 1.0 };
         let shade = [0, 1, 2]
@@ -161,8 +171,8 @@ impl Scene<'_> {
             let [r, g, b] = self.m.textures.get(id).map_or([1.0; 3], |t| texture::color(t, place));
             return [r, g, b, 1.0];
         };
-        // The texture's pixels from this pixel to the next one, to the right and downwards.
-        let pixels = self.eye.moves(ray, hit.normal, ray.point(hit.distance)).map(|by| {
+        // The texture's pixels from this pixel to the next one, to the right and upwards.
+        let pixels = self.eye.pixel_derivatives(ray, hit.normal, ray.point(hit.distance)).map(|by| {
             let by = mat_t_mul_vec(&solid.placed.rotation, by);
             let in_unit = [0, 1, 2].map(|i| by[i] / solid.placed.scale[i]);
             let next = Hit { local: add(hit.local, by), unit: add(hit.unit, in_unit), ..*hit };
@@ -175,14 +185,14 @@ impl Scene<'_> {
     fn with_grid(&self, base: Vec3, hit: &Hit, solid: &Solid, ray: &Ray) -> Vec3 {
         let dark = 0.3 * base[0] + 0.6 * base[1] + 0.1 * base[2] <= 0.2;
         let line_color = if dark { [0.55, 0.6, 0.65] } else { [0.1, 0.13, 0.16] };
-        // How far the point moves on the plane from a pixel to the next one, to the right and downwards.
-        let moves = self.eye.moves(ray, hit.normal, ray.point(hit.distance));
-        let [across, down] = moves.map(|v| mat_t_mul_vec(&solid.placed.rotation, v));
+        // How far the point moves on the plane from a pixel to the next one, to the right and upwards.
+        let moves = self.eye.pixel_derivatives(ray, hit.normal, ray.point(hit.distance));
+        let [across, up] = moves.map(|v| mat_t_mul_vec(&solid.placed.rotation, v));
         let cell = self.content.grid_cell;
         let line = |cell: f64, width: f64| {
             let at = |i: usize| {
                 let x = hit.local[i] / cell;
-                let d = ((across[i].abs() + down[i].abs()) / cell).max(1e-12);
+                let d = ((across[i].abs() + up[i].abs()) / cell).max(1e-12);
                 let from_line = ((x - 0.5) - (x - 0.5).floor() - 0.5).abs();
                 (1.0 - smoothstep(d * width, d * (width + 1.0), from_line)) * (1.0 - smoothstep(0.1, 0.5, d))
             };

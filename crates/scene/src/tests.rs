@@ -156,14 +156,38 @@ fn nothing_that_a_view_or_a_scene_may_say_breaks_the_picture() {
     assert_eq!(draw(&m, &d, &from_above()).unwrap().rgb.len(), 3 * 60 * 60);
 }
 
-#[test]
-fn a_scene_of_too_many_shapes_is_not_drawn() {
-    let many: String =
-        (0..5000).map(|i| format!("<geom size='.1' pos='{} 0 0'/>", 0.001 * f64::from(i))).collect();
-    let m = Model::from_xml(&scene(&many)).unwrap();
+/// Whether a scene is drawn, in a picture of 800 × 600 pixels.
+fn is_drawn(xml: &str) -> bool {
+    let m = Model::from_xml(xml).unwrap();
     let mut d = Data::new(&m);
     forward(&m, &mut d).unwrap();
-    assert!(draw(&m, &d, &View::default()).is_none());
+    draw(&m, &d, &View { size: [800, 600], ..View::default() }).is_some()
+}
+
+#[test]
+fn a_scene_of_too_many_shapes_is_not_drawn() {
+    let balls = |count: usize, rest: &str| {
+        let ball = |i: usize| format!("<geom size='.1' pos='{} 0 0' {rest}/>", 0.0001 * i as f64);
+        scene(&(0..count).map(ball).collect::<String>())
+    };
+    assert!(!is_drawn(&balls(4000, "")));
+    // Each ray meets many of them.
+    assert!(!is_drawn(&balls(1500, "rgba='1 0 0 .02'")));
+    assert!(is_drawn(&balls(50, "rgba='1 0 0 .02'")));
+}
+
+#[test]
+fn geoms_of_one_height_field_share_its_surface() {
+    let fields = |fields: usize, geoms: usize| {
+        let field = |i: usize| format!("<hfield name='h{i}' nrow='400' ncol='400' size='1 1 .1 .1'/>");
+        let geom = |i: usize| format!("<geom type='hfield' hfield='h{}' pos='{i} 0 0'/>", i % fields);
+        let assets: String = (0..fields).map(field).collect();
+        let geoms: String = (0..geoms).map(geom).collect();
+        format!("<mujoco><asset>{assets}</asset><worldbody>{geoms}</worldbody></mujoco>")
+    };
+    assert!(is_drawn(&fields(1, 12)));
+    // 320,000 triangles each.
+    assert!(!is_drawn(&fields(4, 4)));
 }
 
 /// A PNG file of one row.
