@@ -353,3 +353,21 @@ fn a_page_hears_of_every_change() {
     std::fs::write(preview.lesson(), "# Back\n").unwrap();
     assert!(preview.page().2.contains("Back"));
 }
+
+#[test]
+fn what_pages_lack_is_on_them_and_on_the_index() {
+    let preview = Preview::start();
+    let models = preview.folder.path().join("course/models");
+    std::fs::create_dir_all(&models).unwrap();
+    std::fs::write(preview.folder.path().join("course/t.png"), "a picture").unwrap();
+    let xml = "<mujoco><asset><texture name='t' type='2d' file='../t.png'/></asset></mujoco>";
+    std::fs::write(models.join("tiles.xml"), xml).unwrap();
+    std::fs::write(preview.lesson(), "# A\n\n```lab simlab\n{\"model\": \"tiles\"}\n```\n").unwrap();
+    let problem = "the model `tiles` reads `../t.png`, which is not in its folder";
+    let start = Instant::now();
+    while !preview.get("/a.html", "").body.contains(problem) {
+        assert!(start.elapsed() < Duration::from_secs(60), "{}", preview.get("/a.html", "").body);
+        std::thread::sleep(Duration::from_millis(100));
+    }
+    assert!(preview.get("/", "").body.contains(problem));
+}

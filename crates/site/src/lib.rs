@@ -7,15 +7,15 @@
 //! | `masked` | the text of a lesson with its fences replaced, so that a page has the fences that a check has |
 //! | `links` | links and images: pages of the course, files that are copied, addresses that are refused |
 //! | `models` | models of labs: inside a page, or as files beside it |
-//! | `twin` | a lab or a quiz without JavaScript and on paper |
+//! | `twin`, `moments` | a lab or a quiz without JavaScript and on paper, with pictures of its run |
 //! | `verified` | which claims a check has found true |
 //! | `marks` | claimed and unclaimed numbers in the text |
 //! | `prose`, `fence` | Markdown without its fences, and the fences, as HTML |
-//! | `lesson` | a lesson as blocks of HTML, in the order of its text |
+//! | `lesson`, `lesson_main` | a lesson as blocks of HTML, in the order of its text, and the main part of its page |
 //! | `page`, `overview`, `search`, `offline` | pages around lessons, the indexes, and the files of the site |
 //! | `archive`, `scorm` | content packages for learning systems |
 //! | `assets` | scripts and styles that every page needs |
-//! | `site` | a course to files; [`build_site`] is the entry point |
+//! | `options`, `site` | what is built, and a course to files; [`build_site`] is the entry point |
 //! | `preview` | the server |
 //!
 //! Texts of lessons are untrusted. They reach a page through `text` and `html` only, and every page has a policy that allows no

@@ -122,7 +122,7 @@ fn groups(text: &str) -> Vec<String> {
 fn fault(html: &str) -> Option<String> {
     let mut open: Vec<&str> = Vec::new();
     for part in html.split('<').skip(1) {
-        let (tag, _) = part.split_once('>')?;
+        let Some((tag, _)) = part.split_once('>') else { return Some(format!("<{part} has no end")) };
         let name = tag.trim_start_matches('/').split([' ', '\n', '/']).next().unwrap_or("");
         if tag.contains(" on")
             || tag.contains("javascript:")

@@ -4,7 +4,7 @@
 
 use crate::html::{Addresses, harmless};
 use crate::models::texture_images;
-use crate::moments::{Moments, moments};
+use crate::moments::{Moments, draw_run};
 use crate::text::escape;
 use labspec::bind::Programs;
 use labspec::bind::scene::Models;
@@ -68,7 +68,7 @@ pub(crate) fn lab_twin(
     }
     match run_lab(lab, models) {
         Ok(runs) => {
-            drawn = moments(lab, file, (&runs.model, runs.images), runs.programs, runs.end);
+            drawn = draw_run(lab, file, (&runs.model, runs.images), runs.programs, runs.end);
             out.push_str(&drawn.html(lab.title(), address));
             match runs.tables {
                 LabTables::One(table) => out.push_str(&results(lab, &table)),

@@ -127,5 +127,5 @@ test("on paper and without scripts, a lab has pictures of its run", chromiumOnly
     assert.match(await picture.getAttribute("alt"), /: (at|after) /);
     assert.ok((await picture.boundingBox()).height > 60);
   }
-  assert.match(await page.locator(".twin .events").first().textContent(), / touches .+ at \d\.\d\d s\./);
+  assert.match(await page.locator(".twin .events").first().textContent(), / touches .+ at \d\.\d{3} s\./);
 });

@@ -1,10 +1,11 @@
 use crate::bind::ControlProgram;
 use crate::check::choices::choices;
-use crate::check::observations::{ObservedLab, geom_name};
+use crate::check::observations::ObservedLab;
 use crate::check::setconst::digits;
 use crate::run::{self, Play, Session, Start};
 use crate::spec::Control;
 use crate::stress;
+use labspec_monitors::stress::geom_label;
 use labspec_core::{Contact, Model, Plan};
 use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 use std::ops::ControlFlow;
@@ -106,16 +107,16 @@ pub(crate) fn check_contact_mixing(observed: &ObservedLab<'_>, findings: &mut Ve
                 )
                 .why(format!(
                     "at {value}, {} has {}, but its contact with {} has {}: {}",
-                    geom_name(&ready.model, set),
+                    geom_label(&ready.model, set),
                     digits(written, 4),
-                    geom_name(&ready.model, other),
+                    geom_label(&ready.model, other),
                     digits(used, 4),
                     (what.how)(written)
                 ))
                 .help(format!(
                     "{}, or give {} a higher `priority`",
                     set_on_both(bound.text.as_str(), control, &ready.model, (other, component), what),
-                    geom_name(&ready.model, set)
+                    geom_label(&ready.model, set)
                 )),
             );
         }

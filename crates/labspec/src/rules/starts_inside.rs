@@ -1,6 +1,7 @@
-use crate::check::observations::{ObservedLab, geom_name};
+use crate::check::observations::ObservedLab;
 use crate::check::setconst::digits;
 use crate::run::{self, Play, Session, Start};
+use labspec_monitors::stress::geom_label;
 use labspec_core::{Plan, half_thickness_of_pair};
 use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 use std::ops::ControlFlow;
@@ -42,7 +43,7 @@ pub(crate) fn check_start(observed: &ObservedLab<'_>, findings: &mut Vec<Finding
         ControlFlow::Continue(())
     });
     let Some(time) = out else { return };
-    let [a, b] = pair.map(|g| geom_name(&ready.model, g));
+    let [a, b] = pair.map(|g| geom_label(&ready.model, g));
     let [depth, time] = [1000.0 * depth, time].map(|x| digits(x, 3));
     findings.push(
         Finding::warning(STARTS_INSIDE, ready.lab.place(), format!("{b} begins {depth} mm inside {a}"))

@@ -7,7 +7,7 @@ use labspec_core::{Model, joint, solver};
 use labspec_finding::two_digits;
 use labspec_monitors::growth::{Growth, Source};
 use labspec_monitors::limits::ExceededLimit;
-use labspec_monitors::stress::joint_of_dof;
+use labspec_monitors::stress::{geom_label, joint_of_dof};
 use labspec_monitors::sunk::SunkContact;
 use labspec_monitors::through::Through;
 use labspec_monitors::unsolved::Unsolved;
@@ -97,7 +97,7 @@ fn past(model: &Model, p: ExceededLimit) -> Breakdown {
 }
 
 fn through(model: &Model, t: Through) -> Breakdown {
-    let [mover, wall] = t.geoms.map(|g| geom(model, g));
+    let [mover, wall] = t.geoms.map(|g| geom_label(model, g));
     let what = format!(
         "{mover} passes through {wall} at t = {} s: a step moves it by {} m, but the wall is only {} m thick",
         time(t.time),
@@ -113,7 +113,7 @@ fn through(model: &Model, t: Through) -> Breakdown {
 }
 
 fn sunk(model: &Model, s: SunkContact) -> Breakdown {
-    let [a, b] = s.geoms.map(|g| geom(model, g));
+    let [a, b] = s.geoms.map(|g| geom_label(model, g));
     let what = format!(
         "{a} and {b} overlap by {} m from t = {} s on, but the thinner one is only {} m thick; the contact pushes with {} N",
         two_digits(s.depth),
@@ -151,18 +151,6 @@ fn unsolved(model: &Model, u: Unsolved) -> Breakdown {
     };
     let why = "forces that should hold things are missing, step after step: a student sees stacks collapse, and MuJoCo gives no warning";
     BreakdownAdvice::only(help).breakdown(rules::SOLVER_STOPS_EARLY, what, why)
-}
-
-/// The name of a geom, or of its body if the geom has none.
-fn geom(model: &Model, g: usize) -> String {
-    if let Some(geom_name) = model.names.geom.get(g).filter(|n| !n.is_empty()) {
-        return format!("geom \"{geom_name}\"");
-    }
-    let body = model.geom_bodyid.get(g).map_or(0, |&b| b as usize);
-    match model.names.body.get(body).filter(|n| body > 0 && !n.is_empty()) {
-        Some(owner) => format!("geom {g} of body \"{owner}\""),
-        None => format!("geom {g}"),
-    }
 }
 
 fn name(list: Option<&String>, what: &str, id: usize) -> String {

@@ -48,6 +48,18 @@ pub fn geom_name(m: &Model, g: usize) -> String {
     }
 }
 
+/// A geom with the word: `geom "ball"`, or its number and its body.
+pub fn geom_label(m: &Model, g: usize) -> String {
+    if let Some(name) = m.names.geom.get(g).filter(|name| !name.is_empty()) {
+        return format!("geom \"{name}\"");
+    }
+    let body = body_of(m, g);
+    match m.names.body.get(body).filter(|name| body > 0 && !name.is_empty()) {
+        Some(name) => format!("geom {g} of body \"{name}\""),
+        None => format!("geom {g}"),
+    }
+}
+
 /// The joint of a degree of freedom, in words.
 pub fn joint_of_dof(m: &Model, dof: usize) -> String {
     joint_name(m, &m.jnt_dofadr, joint::nv, dof)

@@ -16,7 +16,7 @@ mod history;
 mod runaway;
 mod watch;
 
-pub use bodies::{body_name, body_of, geom_name, joint_of_dof, joint_of_place, pairs};
+pub use bodies::{body_name, body_of, geom_label, geom_name, joint_of_dof, joint_of_place, pairs};
 pub use causes::{stiffness_cause, unknown_cause};
 pub use fault::{Fault, FaultEvidence, FaultKind};
 pub use watch::{MOST_PAIRS, RunMonitor};

@@ -4,7 +4,7 @@
 use super::assist::{EditedLesson, assist};
 use super::author::block_at;
 use super::backend::Backend;
-use super::http::Refused;
+use super::http::Refusal;
 use super::snapshot::{ServedLesson, Snapshot};
 use labspec::spec::Lesson;
 use serde::Deserialize;
@@ -40,7 +40,7 @@ pub(super) fn act(
     ask: &Ask,
     snapshot: &Snapshot,
     backend: &dyn Backend,
-) -> Result<Value, Refused> {
+) -> Result<Value, Refusal> {
     let asked = find_lesson(ask, snapshot)?;
     match what {
         "source" => {
@@ -65,7 +65,7 @@ pub(super) fn act(
     }
 }
 
-fn find_lesson<'s>(ask: &Ask, snapshot: &'s Snapshot) -> Result<RequestedLesson<'s>, Refused> {
+fn find_lesson<'s>(ask: &Ask, snapshot: &'s Snapshot) -> Result<RequestedLesson<'s>, Refusal> {
     let none = || (404, "this lesson is not part of the course any more".to_string());
     let served = snapshot.lessons.get(&ask.page).ok_or_else(none)?;
     let checked = snapshot.course.lessons.get(served.index).ok_or_else(none)?;
@@ -76,17 +76,17 @@ fn find_lesson<'s>(ask: &Ask, snapshot: &'s Snapshot) -> Result<RequestedLesson<
 }
 
 /// The bytes of a block that the page shows.
-fn block_span(ask: &Ask, asked: &RequestedLesson<'_>) -> Result<Range<usize>, Refused> {
+fn block_span(ask: &Ask, asked: &RequestedLesson<'_>) -> Result<Range<usize>, Refusal> {
     let span = ask.start.zip(ask.end).map(|(start, end)| start..end);
     span.filter(|span| asked.served.blocks.contains(span))
         .ok_or((400, "the request names no block of this page".into()))
 }
 
-fn conflict(why: String) -> Refused {
+fn conflict(why: String) -> Refusal {
     (409, why)
 }
 
-fn edit(ask: &Ask, asked: &RequestedLesson<'_>, backend: &dyn Backend) -> Result<Value, Refused> {
+fn edit(ask: &Ask, asked: &RequestedLesson<'_>, backend: &dyn Backend) -> Result<Value, Refusal> {
     let span = block_span(ask, asked)?;
     let text = ask.text.as_deref().ok_or((400, "the request has no text".to_string()))?;
     let old = asked.lesson.file.text();
@@ -106,14 +106,14 @@ fn edit(ask: &Ask, asked: &RequestedLesson<'_>, backend: &dyn Backend) -> Result
     Ok(json!({ "ok": true }))
 }
 
-fn fix(ask: &Ask, asked: &RequestedLesson<'_>, backend: &dyn Backend) -> Result<Value, Refused> {
+fn fix(ask: &Ask, asked: &RequestedLesson<'_>, backend: &dyn Backend) -> Result<Value, Refusal> {
     let finding = ask.finding.and_then(|number| asked.served.findings.get(number));
     let finding = finding.filter(|f| f.fix.is_some()).ok_or((400, "this finding has no fix".to_string()))?;
     backend.fix(&asked.served.path, asked.lesson, finding).map_err(conflict)?;
     Ok(json!({ "ok": true }))
 }
 
-fn propose(ask: &Ask, asked: &RequestedLesson<'_>, backend: &dyn Backend) -> Result<Value, Refused> {
+fn propose(ask: &Ask, asked: &RequestedLesson<'_>, backend: &dyn Backend) -> Result<Value, Refusal> {
     let block = block_span(ask, asked)?;
     let blocks = &asked.served.blocks;
     let is_here = |span: &Range<usize>| {
@@ -135,14 +135,14 @@ fn propose(ask: &Ask, asked: &RequestedLesson<'_>, backend: &dyn Backend) -> Res
     Ok(json!({ "proposals": all }))
 }
 
-fn accept(ask: &Ask, asked: &RequestedLesson<'_>, backend: &dyn Backend) -> Result<Value, Refused> {
+fn accept(ask: &Ask, asked: &RequestedLesson<'_>, backend: &dyn Backend) -> Result<Value, Refusal> {
     let proposals = asked.served.proposals.get();
     let chosen = ask
         .proposal
         .zip(proposals)
         .and_then(|(id, all)| all.verify.get(id))
         .and_then(|one| one.lesson.as_deref());
-    let new = chosen.ok_or((409, "this proposal is not known any more; ask again".to_string()))?;
+    let new = chosen.ok_or((409, "the proposal has expired; request it again".to_string()))?;
     backend.write(&asked.served.path, asked.lesson.file.text(), new).map_err(conflict)?;
     Ok(json!({ "ok": true }))
 }

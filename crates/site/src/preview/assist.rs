@@ -1,7 +1,7 @@
 //! What an open editor shows while an author types: findings with fixes, completions and hover texts of the whole lesson with the
 //! edited block in it. Offsets are those of the block, as JavaScript counts them.
 
-use super::http::Refused;
+use super::http::Refusal;
 use labspec::bind::scene::Models;
 use labspec::lint::ModelFolder;
 use labspec::report::to_value;
@@ -33,7 +33,7 @@ struct Opened {
 }
 
 /// Answers a question of an editor: `findings`, `complete` or `hover`, the last two at an offset of the block.
-pub(super) fn assist(question: &str, edited: EditedLesson<'_>, offset: usize) -> Result<Value, Refused> {
+pub(super) fn assist(question: &str, edited: EditedLesson<'_>, offset: usize) -> Result<Value, Refusal> {
     let mut opened = open(edited)?;
     Ok(match question {
         "findings" => opened.findings(),
@@ -43,7 +43,7 @@ pub(super) fn assist(question: &str, edited: EditedLesson<'_>, offset: usize) ->
 }
 
 /// An editor ends lines with `\n`, so the lesson around its block does here as well.
-fn open(edited: EditedLesson<'_>) -> Result<Opened, Refused> {
+fn open(edited: EditedLesson<'_>) -> Result<Opened, Refusal> {
     let EditedLesson { path, models, old, block, text } = edited;
     let (Some(before), Some(after)) = (old.get(..block.start), old.get(block.end..)) else {
         return Err((400, "the request names no block of this page".into()));

@@ -32,6 +32,13 @@ pub(super) struct AuthorView<'v> {
     pub(super) is_checked: bool,
     /// Why the last check failed.
     pub(super) problem: Option<&'v str>,
+    /// What the pages lack, as sentences.
+    pub(super) unwritten: &'v [String],
+}
+
+/// What pages lack, as items of a list.
+pub(super) fn unwritten_items(problems: &[String]) -> String {
+    problems.iter().map(|why| format!("<li class=\"error\"><p>{}</p></li>", escape(why))).collect()
 }
 
 /// The block that a byte of the file belongs to: the one around it, else the next one, else the last.
@@ -115,7 +122,7 @@ impl AuthorView<'_> {
                 )
             })
             .collect();
-        let all = format!("{loose}{others}");
+        let all = format!("{loose}{others}{}", unwritten_items(self.unwritten));
         let list = if all.is_empty() { String::new() } else { format!("<ul>{all}</ul>") };
         format!("<aside class=\"elsewhere notes\" aria-label=\"Other findings\">{list}</aside>\n")
     }
@@ -144,7 +151,7 @@ impl AuthorView<'_> {
             "<section class=\"block {kind}\" data-key=\"{key}\" data-hash=\"{}\" data-source=\"{}\" data-start=\"{}\" data-end=\"{}\">\n\
              <div class=\"content{fence}\">{content}</div>\n<div class=\"after\">{after}</div>\n\
              <div class=\"notes\">{notes}</div>\n\
-             <div class=\"tools\"><button type=\"button\" data-do=\"edit\" aria-label=\"Edit {lines}\">Edit</button>{propose}<p class=\"said\" role=\"alert\"></p></div>\n</section>\n",
+             <div class=\"tools\"><button type=\"button\" data-do=\"edit\" aria-label=\"Edit {lines}\">Edit</button>{propose}<p class=\"message\" role=\"alert\"></p></div>\n</section>\n",
             block.hash(),
             short_hash(&[text.as_bytes(), same.as_bytes()]),
             span.start,

@@ -2,7 +2,7 @@
 //! can send requests to it: a request must name this address (a name of another site may lead here), come from a page of this
 //! address, and carry the token of the page where it changes something.
 
-use super::http::RequestHead;
+use super::http::{Refusal, RequestHead};
 use crate::page::POLICY;
 
 /// The prefix of addresses that are not files of the site.
@@ -18,9 +18,6 @@ pub(super) struct ServerIdentity {
     /// What a page proves that it was served from here.
     pub(super) token: String,
 }
-
-/// A request that is refused: its status and the reason.
-pub(super) type Refusal = (u16, &'static str);
 
 impl ServerIdentity {
     /// An identity with a new token.
@@ -38,14 +35,14 @@ impl ServerIdentity {
     /// Tests a request before anything else is done with it.
     pub(super) fn check(&self, request: &RequestHead) -> Result<(), Refusal> {
         if request.headers("host") != [self.host.as_str()] {
-            return Err((
+            return refuse(
                 403,
                 "the request names another host; open the address that the preview has printed",
-            ));
+            );
         }
         let origin_of_page = format!("http://{}", self.host);
         if request.headers("origin").iter().any(|origin| *origin != origin_of_page) {
-            return Err((403, "the request comes from another page"));
+            return refuse(403, "the request comes from another page");
         }
         match request.method.as_str() {
             "GET" | "HEAD" => Ok(()),
@@ -54,13 +51,17 @@ impl ServerIdentity {
                 match has_token && request.headers("origin") == [origin_of_page.as_str()] {
                     true => Ok(()),
                     false => {
-                        Err((403, "the request does not have the token of the page; load the page again"))
+                        refuse(403, "the request does not have the token of the page; load the page again")
                     }
                 }
             }
-            _ => Err((405, "the preview answers GET and HEAD")),
+            _ => refuse(405, "the preview answers GET and HEAD"),
         }
     }
+}
+
+fn refuse(status: u16, why: &str) -> Result<(), Refusal> {
+    Err((status, why.to_string()))
 }
 
 /// Compares two texts in a time that does not depend on where they differ.

@@ -16,7 +16,7 @@ const MAX_HEADERS: usize = 64;
 const MAX_DRAINED: u64 = 1 << 20;
 
 /// A request that was not fulfilled: its status and the reason.
-pub(super) type Refused = (u16, String);
+pub(super) type Refusal = (u16, String);
 
 /// The head of a request.
 #[derive(Debug, Default)]

@@ -140,10 +140,9 @@ impl Shared<'_> {
         let made = threads::catch_panic(|| {
             Snapshot::new(&self.material, course, version, is_checked, problem.as_deref())
         });
-        if let Ok(snapshot) = made {
-            *locked(&self.snapshot) = Arc::new(snapshot);
-            self.hub.announce(version);
-        }
+        let snapshot = made.unwrap_or_else(|why| Snapshot::failed(&self.material, &served, version, &why));
+        *locked(&self.snapshot) = Arc::new(snapshot);
+        self.hub.announce(version);
     }
 
     fn check(&self, level: CheckLevel) -> Result<CourseCheck, String> {
@@ -203,7 +202,7 @@ impl Shared<'_> {
         let answer = match self.identity.check(&head) {
             Err((status, why)) => {
                 drain(&mut stream, &head);
-                Response::refusal(status, why)
+                Response::refusal(status, &why)
             }
             Ok(()) => match path.strip_prefix(ACTIONS) {
                 Some("events") if head.method == "GET" => {

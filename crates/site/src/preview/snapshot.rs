@@ -1,6 +1,6 @@
 //! All pages after a check, with the texts for which they were made.
 
-use super::author::{AuthorView, text_hash};
+use super::author::{AuthorView, text_hash, unwritten_items};
 use super::backend::{Backend, CourseCheck, Proposals};
 use crate::assets::PageFiles;
 use crate::options::{SiteFile, SiteOptions};
@@ -74,11 +74,19 @@ impl Snapshot {
             true,
         );
         let mut snapshot = Snapshot { version, course: course.clone(), ..Snapshot::default() };
-        snapshot.add_lessons(material, &written, is_checked, problem);
+        let unwritten: Vec<String> =
+            written.shelf.problems.iter().cloned().collect::<BTreeSet<_>>().into_iter().collect();
+        snapshot.add_lessons(material, &written, is_checked, (problem, &unwritten));
         let head = head(material.token, version);
         let title = material.options.title();
+        let notes = match unwritten_items(&unwritten) {
+            items if items.is_empty() => items,
+            items => {
+                format!("<aside class=\"notes\" aria-label=\"What is missing\"><ul>{items}</ul></aside>\n")
+            }
+        };
         for (name, title, main) in [
-            ("index.html", title, index_main(title, &written.pages)),
+            ("index.html", title, format!("{}{notes}", index_main(title, &written.pages))),
             ("labs.html", "Labs", labs_main(&written.pages)),
         ] {
             let page = Page {
@@ -102,12 +110,49 @@ impl Snapshot {
         snapshot
     }
 
+    /// The pages of a version that could not be written: each says why, until a change of the course.
+    pub(super) fn failed(
+        material: &SnapshotMaterial<'_>,
+        served: &Snapshot,
+        version: u64,
+        why: &str,
+    ) -> Snapshot {
+        let main = format!(
+            "<h1>{}</h1>\n<p class=\"status status-false\" role=\"status\">labspec failed while writing the pages: {}</p>\n",
+            escape(material.options.title()),
+            escape(why)
+        );
+        let page = |name: &str| {
+            let page = Page {
+                name,
+                title: material.options.title(),
+                main: main.clone(),
+                course: material.options.title(),
+                lang: &material.options.lang,
+                head: head(material.token, version),
+                ..Page::default()
+            };
+            SiteFile::Text(page.write())
+        };
+        let file = |(name, file): (&String, &SiteFile)| match name.ends_with(".html") {
+            true => (name.clone(), page(name)),
+            false => (name.clone(), file.clone()),
+        };
+        Snapshot {
+            version,
+            files: served.files.iter().map(file).collect(),
+            course: served.course.clone(),
+            watched: served.watched.clone(),
+            ..Snapshot::default()
+        }
+    }
+
     fn add_lessons(
         &mut self,
         material: &SnapshotMaterial<'_>,
         written: &CoursePages,
         is_checked: bool,
-        problem: Option<&str>,
+        (problem, unwritten): (Option<&str>, &[String]),
     ) {
         let course = self.course.clone();
         for (position, (page, index)) in written.pages.iter().zip(&written.lessons).enumerate() {
@@ -115,8 +160,15 @@ impl Snapshot {
             let Some((path, _)) = &checked.lesson.place else { continue };
             let of_lesson = |f: &&Finding| f.path == *checked.lesson.file.path();
             let findings: Vec<Finding> = course.findings.iter().filter(of_lesson).cloned().collect();
-            let view =
-                AuthorView { checked, page, course: &course, findings: &findings, is_checked, problem };
+            let view = AuthorView {
+                checked,
+                page,
+                course: &course,
+                findings: &findings,
+                is_checked,
+                problem,
+                unwritten,
+            };
             let html = Page {
                 name: &page.name,
                 title: &page.title,

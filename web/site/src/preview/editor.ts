@@ -43,22 +43,22 @@ class ServerChecker extends CheckerClient {
 
 /** Opens an editor in `host`. `onSave` stores the text; where it fails, the editor stays open and shows why. */
 export function mountEditor(host: HTMLElement, text: string, assist: Assist, onSave: (text: string) => Promise<void>): Editor {
-  const [form, place, bar, save, cancel, said] = [
+  const [form, place, bar, save, cancel, message] = [
     document.createElement("form"), document.createElement("div"), document.createElement("div"), document.createElement("button"),
     document.createElement("button"), document.createElement("p"),
   ];
   form.className = "source-editor";
   place.className = "source";
   [save.type, save.textContent, cancel.type, cancel.textContent] = ["submit", "Save", "button", "Cancel"];
-  said.setAttribute("role", "alert");
+  message.setAttribute("role", "alert");
   bar.append(save, cancel);
-  form.append(place, bar, said);
+  form.append(place, bar, message);
   host.append(form);
   const editor = mountCode(place, {
     text, path: PATH, language: "markdown", checker: new ServerChecker(assist), label: "Source of this block", onSave: () => form.requestSubmit(),
     // The file has changed meanwhile; the text stays.
-    onFailure: (why) => { said.textContent = why; },
-    onFindings: () => { said.textContent = ""; },
+    onFailure: (why) => { message.textContent = why; },
+    onFindings: () => { message.textContent = ""; },
   });
   const close = (): void => {
     editor.dispose();
@@ -69,7 +69,7 @@ export function mountEditor(host: HTMLElement, text: string, assist: Assist, onS
     save.disabled = true;
     onSave(editor.text).then(close, (e: unknown) => {
       save.disabled = false;
-      said.textContent = e instanceof Error ? e.message : String(e);
+      message.textContent = e instanceof Error ? e.message : String(e);
     });
   });
   form.addEventListener("keydown", (event) => {

@@ -5,7 +5,7 @@ import { ask, lessonOf } from "./server.js";
 const textOf = (x: unknown): string => (typeof x === "string" ? x : "");
 
 function say(block: HTMLElement, text: string): void {
-  const line = block.querySelector<HTMLElement>(":scope > .tools > .said");
+  const line = block.querySelector<HTMLElement>(":scope > .tools > .message");
   if (line !== null) line.textContent = text;
 }
 

@@ -5,7 +5,6 @@ use super::record::{InputsOutOfRange, ObservationHash, Record};
 use crate::bind::Programs;
 use crate::check::PreparedLab;
 use crate::run::{self, Budget, Cell, Play, Session, Start};
-use labspec_core::{Model, Obj};
 use std::ops::ControlFlow;
 
 /// A lab with the remaining work budget.
@@ -138,13 +137,5 @@ impl<'a> ObservedLab<'a> {
             1 => "the run".into(),
             n => format!("{n} runs, with every control moved"),
         }
-    }
-}
-
-/// Describes a geom for a message.
-pub(crate) fn geom_name(model: &Model, g: usize) -> String {
-    match model.names.of_kind(Obj::Geom).get(g).filter(|n| !n.is_empty()) {
-        Some(geom) => format!("geom \"{geom}\""),
-        None => format!("geom {g}"),
     }
 }

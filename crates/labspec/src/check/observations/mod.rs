@@ -6,7 +6,7 @@ mod moves;
 mod no_solver;
 mod record;
 
-pub(crate) use bench::{ObservationBench, ObservedLab, geom_name};
+pub(crate) use bench::{ObservationBench, ObservedLab};
 pub(crate) use moves::{Move, Setting, settings, single_moves, values};
 pub(crate) use record::{InputsOutOfRange, ObservationHash, Record, column, constant, longest_equal, same};
 
