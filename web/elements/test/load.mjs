@@ -1,12 +1,14 @@
-// A module of the sources, for tests in node.
+// Modules of the sources, for tests in node.
 import { build } from "esbuild";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 
 const root = join(dirname(fileURLToPath(import.meta.url)), "..");
 
-export async function load(path) {
-  const { outputFiles } = await build({ entryPoints: [join(root, "src", path)], bundle: true, write: false, format: "esm", target: "es2022", loader: { ".css": "text" } });
+/** The exports of one or more modules, which share what they import. */
+export async function load(...paths) {
+  const stdin = { contents: paths.map((path) => `export * from "./${path}";`).join("\n"), resolveDir: join(root, "src") };
+  const { outputFiles } = await build({ stdin, bundle: true, write: false, format: "esm", target: "es2022", loader: { ".css": "text" } });
   return import(`data:text/javascript;base64,${Buffer.from(outputFiles[0].contents).toString("base64")}`);
 }
 

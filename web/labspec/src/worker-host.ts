@@ -15,70 +15,81 @@ function buffersOf(result: unknown): ArrayBuffer[] {
   return typeof result === "object" && result !== null && !ArrayBuffer.isView(result) ? Object.values(result).flatMap(buffersOf) : [];
 }
 
+/** A lab with what is deleted together with it: the memory of its frames, if memory can be shared, and its saved states. */
+interface ServedLab {
+  readonly lab: Lab;
+  readonly frames: SharedFrames | undefined;
+  readonly states: Map<number, LabState>;
+  /** The number of states that were saved, which is the id of the last one. */
+  saved: number;
+}
+
+/** The data that a page draws: copies, which are transferred, or null if they are in shared memory. */
+function frameOf({ lab, frames }: ServedLab): Frame | null {
+  if (frames === undefined) return { time: lab.time, numbers: lab.numbers, poses: lab.poses.slice() };
+  frames.write(lab);
+  return null;
+}
+
+function stateOf({ states }: ServedLab, id: unknown): LabState {
+  const state = states.get(id as number);
+  if (state === undefined) throw new LabspecError("freed", "this state was freed");
+  return state;
+}
+
+/** Answers a call that needs nothing but the lab. */
+function answerLab(served: ServedLab, call: string, args: readonly unknown[]): unknown {
+  const { lab: calledLab, states } = served;
+  if (call === "frame") return frameOf(served);
+  if (call === "save") {
+    states.set(++served.saved, calledLab.save());
+    return served.saved;
+  }
+  if (call === "restore") return calledLab.restore(stateOf(served, args[0]));
+  if (call === "stateBytes") return stateOf(served, args[0]).toBytes();
+  if ((READS as readonly string[]).includes(call)) return calledLab[call as (typeof READS)[number]];
+  if ((CALLS as readonly string[]).includes(call)) return (calledLab[call as (typeof CALLS)[number]] as (...a: unknown[]) => unknown).apply(calledLab, [...args]);
+  throw new LabspecError("unknown-function", `a lab has no \`${call}\``);
+}
+
 /** Serves labs to the other end of a port. */
 export function serve(port: Port, ready: Promise<void>): void {
-  const labs = new Map<number, Lab>();
-  const frames = new WeakMap<Lab, SharedFrames>();
-  const states = new Map<number, LabState>();
+  const labs = new Map<number, ServedLab>();
   const runs = new Map<number, AbortController>();
   let next = 1;
 
-  const lab = (id: number): Lab => {
-    const found = labs.get(id);
-    if (found === undefined) throw new LabspecError("freed", "this lab was freed");
-    return found;
-  };
-  /** The data that a page draws: copies, which are transferred, or null if they are in shared memory. */
-  const frame = (of: Lab): Frame | null => {
-    const shared = frames.get(of);
-    if (shared === undefined) return { time: of.time, numbers: of.numbers, poses: of.poses.slice() };
-    shared.write(of);
-    return null;
-  };
   const open = (args: readonly unknown[]): OpenedLab => {
     const [first, second, address, models] = args as [string, string & Models, string | undefined, Models];
-    const opened = typeof address === "string" ? Lab.ofLesson(first, second, address, models) : new Lab(first, second);
-    const shared = canShare() ? SharedFrames.like(opened) : undefined;
-    if (shared !== undefined) frames.set(opened, shared);
-    labs.set(next, opened);
-    return { id: next++, memory: shared?.memory };
+    const lab = typeof address === "string" ? Lab.ofLesson(first, second, address, models) : new Lab(first, second);
+    const frames = canShare() ? SharedFrames.like(lab) : undefined;
+    labs.set(next, { lab, frames, states: new Map(), saved: 0 });
+    return { id: next++, memory: frames?.memory };
+  };
+  const play = async (served: ServedLab, args: readonly unknown[]): Promise<unknown> => {
+    const [time, run, budget] = args as [number, number, number | undefined];
+    const control = new AbortController();
+    runs.set(run, control);
+    try {
+      const steps = await served.lab.play(time, { signal: control.signal, ...(budget === undefined ? {} : { budget }) });
+      return { steps, frame: frameOf(served) };
+    } finally {
+      runs.delete(run);
+    }
   };
 
   const answer = async ({ lab: id, call, args }: Request): Promise<unknown> => {
     await ready;
     if (call === "open") return open(args);
     if (call === "cancel") return runs.get(args[0] as number)?.abort();
-    const own = lab(id);
+    const served = labs.get(id);
+    // The states of a freed lab are gone already.
+    if (call === "forget") return void served?.states.delete(args[0] as number);
+    if (served === undefined) throw new LabspecError("freed", "this lab was freed");
     if (call === "free") {
       labs.delete(id);
-      return own.free();
+      return served.lab.free();
     }
-    if (call === "frame") return frame(own);
-    if (call === "play") {
-      const [time, run, budget] = args as [number, number, number | undefined];
-      const control = new AbortController();
-      runs.set(run, control);
-      try {
-        const steps = await own.play(time, { signal: control.signal, ...(budget === undefined ? {} : { budget }) });
-        return { steps, frame: frame(own) };
-      } finally {
-        runs.delete(run);
-      }
-    }
-    if (call === "save") {
-      states.set(next, own.save());
-      return next++;
-    }
-    if (call === "restore") {
-      const state = states.get(args[0] as number);
-      if (state === undefined) throw new LabspecError("wrong-type", "a state is what `save` gave");
-      return own.restore(state);
-    }
-    if (call === "forget") return void states.delete(args[0] as number);
-    if (call === "stateBytes") return states.get(args[0] as number)?.toBytes();
-    if ((READS as readonly string[]).includes(call)) return own[call as (typeof READS)[number]];
-    if ((CALLS as readonly string[]).includes(call)) return (own[call as (typeof CALLS)[number]] as (...a: unknown[]) => unknown).apply(own, [...args]);
-    throw new LabspecError("unknown-function", `a lab has no \`${call}\``);
+    return call === "play" ? play(served, args) : answerLab(served, call, args);
   };
 
   port.listen((message) => {

@@ -96,7 +96,9 @@ export class Lab {
   }
 
   async restore(state: WorkerState): Promise<void> {
-    await this.#get("restore", this.#states.get(state) ?? -1);
+    const id = this.#states.get(state);
+    if (id === undefined) throw new LabspecError("wrong-type", "`restore` takes a state that `save` of this lab returned");
+    await this.#get("restore", id);
   }
 }
 

@@ -41,6 +41,22 @@ test("a worker has the same interface and the same numbers", async () => {
   await assert.rejects(worker.open(json, { drop }), (e) => e.code === "worker");
 });
 
+test("a state is freed once, by itself or with its lab, and is unknown then", async () => {
+  const worker = startWorker();
+  const [lab, other] = [await worker.open(json, { drop }), await worker.open(json, { drop })];
+  const [first, second] = [await lab.save(), await lab.save()];
+  await first.free();
+  const isFreed = (e) => e instanceof LabspecError && e.code === "freed" && e.message === "this state was freed";
+  await assert.rejects(first.toBytes(), isFreed);
+  await assert.rejects(lab.restore(first), isFreed);
+  await assert.rejects(other.restore(second), (e) => e.code === "wrong-type");
+  await lab.restore(second);
+  await lab.free();
+  await second.free();
+  await assert.rejects(second.toBytes(), (e) => e.code === "freed");
+  worker.terminate();
+});
+
 test("frames come through shared memory where there is any, and belong to the page", async () => {
   const worker = startWorker();
   const lab = await worker.open(json, { drop });

@@ -28,14 +28,24 @@ interface Request {
   readonly replaces: boolean;
 }
 
-/** Opens the labs. `control` is the label of the select that sets the integrator; here it chooses whose scene is drawn. */
-export async function openCompared(labs: readonly ComparedLab[], control: string, models: Models, state: Uint8Array | null): Promise<RemoteLab> {
-  const states = state === null ? labs.map(() => null) : splitState(state, labs.length);
-  const members = await Promise.all(labs.map(async ({ name, json }, i): Promise<Member> => {
+/** Opens the labs. If one of them cannot be opened, none stays open. */
+async function openMembers(labs: readonly ComparedLab[], models: Models, states: readonly (Uint8Array | null)[]): Promise<readonly Member[]> {
+  const results = await Promise.allSettled(labs.map(async ({ name, json }, i): Promise<Member> => {
     const remote = await openRemote(json, models, states[i] ?? null);
     const { frame, model } = remote.opened;
     return { name, remote, queue: createQueue(), frame, model, isBroken: false };
   }));
+  const members = results.flatMap((result) => (result.status === "fulfilled" ? [result.value] : []));
+  const refused = results.find((result) => result.status === "rejected");
+  if (refused === undefined) return members;
+  for (const { remote } of members) remote.ask("free").catch(() => undefined);
+  throw refused.reason;
+}
+
+/** Opens the labs. `control` is the label of the select that sets the integrator; here it chooses whose scene is drawn. */
+export async function openCompared(labs: readonly ComparedLab[], control: string, models: Models, state: Uint8Array | null): Promise<RemoteLab> {
+  const states = state === null ? labs.map(() => null) : splitState(state, labs.length);
+  const members = await openMembers(labs, models, states);
   const first = members[0];
   if (first === undefined) throw new Error("a comparison needs a lab");
   const place = first.remote.opened.controls.findIndex(({ label }) => label === control);

@@ -9,11 +9,7 @@ export default { render };
 
 setEngineSource({
   serve,
-  workerUrls: () => [
-    new URL("./engine.js", import.meta.url).href,
-    // A script of another origin cannot be a worker, but its text can.
-    URL.createObjectURL(new Blob([`(${serve.toString()})(self)`], { type: "text/javascript" })),
-  ],
+  get workerUrl() { return new URL("./engine.js", import.meta.url).href; },
   async module() {
     const response = await fetch(new URL("./labspec.wasm", import.meta.url));
     if (!response.ok) throw new Error(`labspec.wasm is not beside the script: ${response.status}`);

@@ -10,7 +10,7 @@ export default { render };
 
 setEngineSource({
   serve,
-  workerUrls: () => [URL.createObjectURL(new Blob([`(${serve.toString()})(self)`], { type: "text/javascript" }))],
+  workerUrl: null,
   module: compile,
 });
 defineElements();

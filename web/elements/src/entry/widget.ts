@@ -63,8 +63,8 @@ function isGiven(x: unknown): boolean {
 }
 
 function contentOf(model: WidgetModel, name: string, keys: readonly string[]): object | string {
-  const own = model.get(name);
-  if (typeof own === "string" || (typeof own === "object" && own !== null)) return own;
+  const content = model.get(name);
+  if (typeof content === "string" || (typeof content === "object" && content !== null)) return content;
   const entries = keys.map((key) => [key, model.get(key)] as const).filter(([, value]) => value !== undefined && value !== null);
   return Object.fromEntries(entries);
 }

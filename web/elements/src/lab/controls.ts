@@ -35,7 +35,7 @@ export function createControls(controls: readonly Control[], actions: ControlAct
 
 function createControl(control: Control, actions: ControlActions): Part {
   if (control.kind === "button") {
-    const button = h("button", { type: "button", class: "action", part: "button" }, control.label);
+    const button = buttonElement(control.label);
     button.addEventListener("click", () => actions.press(control.label));
     return { element: button, show: () => undefined };
   }
@@ -48,42 +48,69 @@ export function formatControl(control: Control, value: number): string {
   return `${formatNumber(value, control.digits ?? 3).replace("-", "−")}${unit === "" ? "" : `\u202f${unit}`}`;
 }
 
-function createSlider(control: Control, actions: ControlActions): Part {
+export function buttonElement(label: string): HTMLButtonElement {
+  return h("button", { type: "button", class: "action", part: "button" }, label);
+}
+
+interface SliderElement {
+  readonly element: HTMLElement;
+  readonly input: HTMLInputElement;
+  /** The place of the printed value. */
+  readonly output: HTMLOutputElement;
+  /** Sets the value of the input, and fills its track up to there. */
+  move(value: number): void;
+}
+
+/** A slider with its label. */
+export function sliderElement(label: string, min: number, max: number, step: number | "any"): SliderElement {
   const id = uniqueId();
-  const [min, max] = [control.min ?? 0, control.max ?? 1];
-  const step = control.step !== undefined && control.step > 0 ? control.step : "any";
-  const start = typeof control.start === "number" ? control.start : min;
-  const input = h("input", { type: "range", id, min, max, step, value: start, part: "slider" });
+  const input = h("input", { type: "range", id, min, max, step, part: "slider" });
   const output = h("output", { for: id, class: "slider-value", "aria-live": "off" });
-  const describe = (value: number): void => {
+  const element = h("div", { class: "control slider", part: "control" }, h("div", { class: "control-head" }, h("label", { for: id }, label), output), input);
+  return {
+    element, input, output,
+    move(value) {
+      if (input.valueAsNumber !== value) input.value = String(value);
+      input.style.setProperty("--_fill", `${max > min ? ((value - min) / (max - min)) * 100 : 0}%`);
+    },
+  };
+}
+
+/** A select with its label; the value of an option is its place. */
+export function selectElement(label: string, options: readonly string[]): { readonly element: HTMLElement; readonly select: HTMLSelectElement } {
+  const id = uniqueId();
+  const select = h("select", { id, part: "select" }, ...options.map((text, i) => h("option", { value: i }, text)));
+  return { element: h("div", { class: "control select", part: "control" }, h("label", { for: id }, label), select), select };
+}
+
+function createSlider(control: Control, actions: ControlActions): Part {
+  const min = control.min ?? 0;
+  const step = control.step !== undefined && control.step > 0 ? control.step : "any";
+  const { element, input, output, move } = sliderElement(control.label, min, control.max ?? 1, step);
+  const display = (value: number): void => {
     const text = formatControl(control, value);
     setText(output, text);
     input.setAttribute("aria-valuetext", text.replace("\u202f", " "));
-    input.style.setProperty("--_fill", `${max > min ? ((value - min) / (max - min)) * 100 : 0}%`);
+    move(value);
   };
   input.addEventListener("input", () => {
-    describe(input.valueAsNumber);
+    display(input.valueAsNumber);
     actions.set(control.label, input.valueAsNumber);
   });
-  describe(start);
-  const element = h("div", { class: "control slider", part: "control" },
-    h("div", { class: "control-head" }, h("label", { for: id }, control.label), output), input);
+  display(typeof control.start === "number" ? control.start : min);
   return {
     element,
     show(value) {
-      if (typeof value !== "number" || input.matches(":active")) return;
-      if (input.valueAsNumber !== value) input.value = String(value);
-      describe(value);
+      if (typeof value === "number" && !input.matches(":active")) display(value);
     },
   };
 }
 
 function createSelect(control: Control, actions: ControlActions): Part {
-  const id = uniqueId();
   const options = control.options ?? [];
-  const select = h("select", { id, part: "select" }, ...options.map(([text], i) => h("option", { value: i }, text)));
+  const { element, select } = selectElement(control.label, options.map(([text]) => text));
   const show = (value: ControlValue | null): void => {
-    const index = options.findIndex(([, own]) => Object.is(own, value));
+    const index = options.findIndex(([, option]) => Object.is(option, value));
     if (index >= 0 && select.selectedIndex !== index) select.selectedIndex = index;
   };
   show(control.start);
@@ -91,5 +118,5 @@ function createSelect(control: Control, actions: ControlActions): Part {
     const chosen = options[select.selectedIndex]?.[1];
     if (chosen !== undefined && chosen !== null) actions.set(control.label, chosen);
   });
-  return { element: h("div", { class: "control select", part: "control" }, h("label", { for: id }, control.label), select), show };
+  return { element, show };
 }

@@ -2,7 +2,7 @@
 import type { ControlValue, Models } from "labspec/slim";
 import { childrenRead, ContentError, readContent, readModels } from "../content.js";
 import { deferred } from "../deferred.js";
-import { h, takeOwnProperty } from "../dom.js";
+import { h, setText, takeOwnProperty } from "../dom.js";
 import { EngineError, prepareEngine } from "../engine/client.js";
 import { createBadge } from "../proof/badge.js";
 import type { Json, LabSpec } from "../spec.js";
@@ -19,6 +19,8 @@ import { openPanel, type Panel } from "./panel.js";
 const TAG = "sim-lab";
 /** A lab is opened when its distance to the window is smaller than this, pixels. */
 const MARGIN = 200;
+/** A text is read aloud only if it comes some time after its live region. A lab that is open by then does not say that it loads, ms. */
+const LOADING_DELAY = 200;
 
 export class SimLab extends HTMLElement {
   static readonly observedAttributes = ["src", "lang", "link"];
@@ -29,6 +31,11 @@ export class SimLab extends HTMLElement {
   /** The number of openings. The results of older openings are dropped. */
   #turn = 0;
   #isWanted = false;
+  /** Whether the lab is in or near the window, as the observer has reported last. */
+  #isSeen = false;
+  /** Whether the focus was in a panel that was replaced. */
+  #hadFocus = false;
+  readonly #region = h("p", { class: "hidden", role: "status", "aria-live": "polite", part: "status" });
   #ready = deferred();
   #seen: IntersectionObserver | null = null;
   #unwatch: (() => void) | null = null;
@@ -98,13 +105,16 @@ export class SimLab extends HTMLElement {
     applyStyles(root);
     takeOwnProperty(this, "models");
     takeOwnProperty(this, "lab");
-    if (root.childElementCount === 0) this.#showLoading(root);
+    if (this.#region.parentNode === null) {
+      root.append(this.#region);
+      this.#showLoading(root);
+    }
     addEventListener("hashchange", this.#onHash);
     this.#unwatch = watchTheme(this, () => this.#panel?.restyle());
     this.#seen = new IntersectionObserver((entries) => {
-      const isSeen = entries[entries.length - 1]?.isIntersecting === true;
-      if (isSeen) this.#want();
-      if (this.#panel !== null) this.#panel.player.isVisible = isSeen;
+      this.#isSeen = entries[entries.length - 1]?.isIntersecting === true;
+      if (this.#isSeen) this.#want();
+      if (this.#panel !== null) this.#panel.player.isVisible = this.#isSeen;
     }, { rootMargin: `${MARGIN}px` });
     this.#seen.observe(this);
     // The engine starts while the page is laid out, and a lab in the window does not wait for the observer.
@@ -160,7 +170,11 @@ export class SimLab extends HTMLElement {
     prepareEngine();
     // The page has nothing to do while the engine starts.
     setTimeout(prepareViews, 0);
-    void this.#open(++this.#turn);
+    const turn = ++this.#turn;
+    setTimeout(() => {
+      if (turn === this.#turn && !this.#ready.isSettled) setText(this.#region, messagesFor(this)("loading"));
+    }, LOADING_DELAY);
+    void this.#open(turn);
   }
 
   #close(): void {
@@ -171,6 +185,8 @@ export class SimLab extends HTMLElement {
     this.#panel?.dispose();
     this.#panel = null;
     this.#endOutline();
+    setText(this.#region, "");
+    this.#hadFocus ||= (this.shadowRoot?.activeElement ?? null) !== null;
     // Who waits for a lab that was not open yet waits for the one that is opened next.
     if (this.#ready.isSettled) this.#ready = deferred();
     if (this.shadowRoot !== null) this.#showLoading(this.shadowRoot);
@@ -202,7 +218,7 @@ export class SimLab extends HTMLElement {
 
   #showLoading(root: ShadowRoot): void {
     const say = messagesFor(this);
-    show(root, h("div", { class: "lab loading", role: "status" }, h("span", {}, say("loading"))));
+    show(root, h("div", { class: "lab loading" }, h("span", {}, say("loading"))));
   }
 
   async #open(turn: number): Promise<void> {
@@ -225,8 +241,12 @@ export class SimLab extends HTMLElement {
       const badge = createBadge(this, json, models, say);
       if (badge !== null) panel.element.append(badge);
       show(root, panel.element);
+      setText(this.#region, "");
+      // The reader may have moved the focus meanwhile.
+      if (this.#hadFocus && document.activeElement === document.body) panel.focus();
+      this.#hadFocus = false;
       panel.restyle();
-      panel.player.isVisible = true;
+      panel.player.isVisible = this.#isSeen;
       if (remark !== null) panel.say(remark);
       const mayMove = !matchMedia("(prefers-reduced-motion: reduce)").matches;
       if ((spec.autoplay || panel.frame.playback === "play") && mayMove) panel.player.play();
@@ -235,6 +255,8 @@ export class SimLab extends HTMLElement {
     } catch (e) {
       if (isOld()) return;
       this.#endOutline();
+      setText(this.#region, "");
+      this.#hadFocus = false;
       showError(root, e, say);
       this.#ready.reject(e);
     }
@@ -242,7 +264,7 @@ export class SimLab extends HTMLElement {
 
   /** Opens the lab in the requested state. If the state is refused, the lab opens at its start, with the reason. */
   async #openInState(spec: LabSpec, models: Models, say: Say): Promise<[Panel, string | null]> {
-    const open = (state: Uint8Array | null): Promise<Panel> => openPanel(spec, models, { state, poster: state === null ? this.#poster() : null }, this.#key(), say, {
+    const open = (state: Uint8Array | null): Promise<Panel> => openPanel(spec, models, { state, poster: state === null ? this.#poster() : null, region: this.#region }, this.#key(), say, {
       moved: (label, value) => (value === null ? this.#link?.pressed(label) : this.#link?.moved(label, value)),
       change: (label, value, time) => {
         this.shadowRoot?.querySelector(".failure")?.remove();
@@ -287,8 +309,10 @@ export class SimLab extends HTMLElement {
   }
 }
 
+/** Shows an element in place of the one before it. The live region stays. */
 function show(root: ShadowRoot, element: HTMLElement): void {
-  root.replaceChildren(...root.querySelectorAll("style"), element);
+  root.querySelector(".lab")?.remove();
+  root.prepend(element);
 }
 
 function reasonOf(e: unknown, say: Say): string {

@@ -25,9 +25,9 @@ export function comparedIntegrators(lab: Json): readonly string[] {
 
 /** The lab of one integrator. */
 export function labOfIntegrator(lab: Json, names: readonly string[], name: string): Json {
-  const own = Object.entries(lab).filter(([key]) => key !== "integrators" && key !== "timestep");
+  const entries = Object.entries(lab).filter(([key]) => key !== "integrators" && key !== "timestep");
   const controls = [...listOf(lab["controls"]), integratorSelect(names, name, numberOf(lab["timestep"]))];
-  return { ...Object.fromEntries(own), controls, plots: plotsOf(lab) };
+  return { ...Object.fromEntries(entries), controls, plots: plotsOf(lab) };
 }
 
 function plotsOf(lab: Json): readonly unknown[] {

@@ -1,11 +1,12 @@
 /**
  * A lab before its engine is there: its title, its picture, its controls, its readouts and its plots, at the places and in the sizes that they will have.
- * Nothing of it can be used yet, and screen readers are told only that the lab is loading.
+ * Nothing of it can be used or read aloud yet; the live region of the element says that the lab is loading.
  */
 import { h } from "../dom.js";
 import { createPlot } from "../plot/plot.js";
 import { isObject, listOf, numberOf, textOf, type Json, type LabSpec } from "../spec.js";
 import type { Say } from "../text/messages.js";
+import { buttonElement, selectElement, sliderElement } from "./controls.js";
 import { createReadouts } from "./readouts.js";
 import { layOut } from "./layout.js";
 import { createPoster } from "./poster.js";
@@ -39,9 +40,7 @@ export function createOutline(lab: Json, spec: LabSpec, poster: string | null, s
     plots: plots.map((plot) => plot.element), spoken: [], findings: [],
   });
   for (const child of element.children) (child as HTMLElement).inert = true;
-  element.append(h("p", { class: "hidden", role: "status" }, say("loading")));
   element.classList.add("outline");
-  element.setAttribute("aria-busy", "true");
   return {
     element,
     dispose() {
@@ -54,14 +53,14 @@ export function createOutline(lab: Json, spec: LabSpec, poster: string | null, s
 function outlineOf(control: Json): HTMLElement {
   const label = textOf(control["label"]) ?? "";
   switch (control["type"]) {
-    case "button": return h("button", { type: "button", class: "action" }, label);
-    case "select": return h("div", { class: "control select" }, h("span", {}, label), h("select", {}, h("option", {}, "\u00a0")));
+    case "button": return buttonElement(label);
+    case "select": return selectElement(label, ["\u00a0"]).element;
     default: {
       const [min, max] = [numberOf(control["min"]) ?? 0, numberOf(control["max"]) ?? 1];
-      const value = numberOf(control["value"]) ?? min;
-      const input = h("input", { type: "range", min, max, step: "any", value });
-      input.style.setProperty("--_fill", `${max > min ? ((value - min) / (max - min)) * 100 : 0}%`);
-      return h("div", { class: "control slider" }, h("div", { class: "control-head" }, h("span", {}, label), h("output", { class: "slider-value" }, "\u00a0")), input);
+      const slider = sliderElement(label, min, max, "any");
+      slider.move(numberOf(control["value"]) ?? min);
+      slider.output.textContent = "\u00a0";
+      return slider.element;
     }
   }
 }

@@ -60,6 +60,8 @@ export interface Panel {
   release(): void;
   describe(): string;
   save(): Promise<Uint8Array>;
+  /** Gives the focus to the play button. */
+  focus(): void;
   dispose(): void;
 }
 
@@ -67,15 +69,17 @@ export interface Panel {
 export interface PanelStart {
   readonly state: Uint8Array | null;
   readonly poster: string | null;
+  /** The live region of the element. */
+  readonly region: HTMLElement;
 }
 
 /** Opens a lab, and builds its parts. `key` is its name in addresses. */
-export async function openPanel(spec: LabSpec, models: Models, { state, poster }: PanelStart, key: string, say: Say, events: PanelEvents): Promise<Panel> {
+export async function openPanel(spec: LabSpec, models: Models, { state, poster, region }: PanelStart, key: string, say: Say, events: PanelEvents): Promise<Panel> {
   const compares = spec.compared.length > 0;
   const remote = await (compares ? openCompared(spec.compared, INTEGRATOR, models, state) : openRemote(spec.json, models, state));
   const { opened } = remote;
   const title = spec.title === "" ? say("lab") : spec.title;
-  const spoken = createSpoken(say);
+  const spoken = createSpoken(region, say);
   const wantsNoMotion = matchMedia("(prefers-reduced-motion: reduce)").matches;
   let [frame, atStart]: [Frame, boolean] = [opened.frame, true];
 
@@ -113,6 +117,9 @@ export async function openPanel(spec: LabSpec, models: Models, { state, poster }
     if (plays) player.play();
     else player.pause();
   };
+  const failed = (e: unknown): void => {
+    if (!player.isClosed) events.failed(e);
+  };
   const player = createPlayer(remote, {
     frame: take,
     playing(isPlaying) {
@@ -127,6 +134,7 @@ export async function openPanel(spec: LabSpec, models: Models, { state, poster }
   const move = (label: string, value: ControlValue | null): Promise<void> => {
     const done = value === null ? player.press(label) : player.set(label, value);
     return done.then(() => {
+      if (player.isClosed) return;
       showValues();
       answered();
       events.change(label, value, frame.time);
@@ -177,19 +185,19 @@ export async function openPanel(spec: LabSpec, models: Models, { state, poster }
       speed: (speed) => {
         player.speed = speed;
       },
-      copyLink: () => void copyLink(save, key, say, spoken.say),
-      saveState: () => void save().then((bytes) => saveFile(`${fileName(title)}.json`, new Blob([bytes as BlobPart], { type: "application/json" }))),
+      copyLink: () => void copyLink(save, key, say, spoken.say).catch(failed),
+      saveState: () => void save().then((bytes) => saveFile(`${fileName(title)}.json`, new Blob([bytes as BlobPart], { type: "application/json" }))).catch(failed),
       openState: (file) => void file.arrayBuffer().then((buffer) => {
         const bytes = new Uint8Array(buffer);
         checkState(bytes);
         events.reopen(bytes);
-      }).catch(events.failed),
-      savePicture: () => viewport.savePicture(title),
+      }).catch(failed),
+      savePicture: () => void viewport.savePicture(title).catch(failed),
     });
   player.speed = spec.speeds.includes(1) ? 1 : (spec.speeds[0] ?? 1);
   const element = layOut({
     spec, title, say, view: viewport.element, viewBar: viewBar.element, toolbar: toolbar.element, controls: controls.elements,
-    buttons: controls.buttons, readouts: readouts.element, plots: plots.map((plot) => plot.element), spoken: [spoken.log, spoken.region],
+    buttons: controls.buttons, readouts: readouts.element, plots: plots.map((plot) => plot.element), spoken: [spoken.log],
     findings: opened.findings,
   });
   // A reader who has left the lab holds no body: Tab moves from the picture to the buttons of the lab, and the body stays held.
@@ -199,9 +207,10 @@ export async function openPanel(spec: LabSpec, models: Models, { state, poster }
   for (const plot of plots) plot.add(opened.frame.rows, opened.shown.length + 1);
   const textures = allTextures(opened.textures, viewport.textures, models).catch(() => null);
   // Drivers take long for the first picture. The rest of the lab is painted before it.
-  requestAnimationFrame(() => {
+  let timer: ReturnType<typeof setTimeout> | undefined;
+  const firstFrame = requestAnimationFrame(() => {
     show();
-    setTimeout(() => viewport.begin(textures), 0);
+    timer = setTimeout(() => viewport.begin(textures), 0);
   });
   return {
     element, remote, player, move, say: spoken.say, describe, save,
@@ -216,9 +225,13 @@ export async function openPanel(spec: LabSpec, models: Models, { state, poster }
       if (atStart) show();
     },
     release: () => viewport.grab(null),
+    focus: () => toolbar.play.focus(),
     dispose() {
+      cancelAnimationFrame(firstFrame);
+      clearTimeout(timer);
       forgetPaced(show);
       player.close();
+      spoken.dispose();
       viewport.dispose();
       for (const plot of plots) plot.dispose();
     },

@@ -6,6 +6,8 @@ import { onEveryFrame } from "./clock.js";
 
 export interface Player {
   readonly isPlaying: boolean;
+  /** A closed player tells nothing more. */
+  readonly isClosed: boolean;
   /** Simulated seconds per second. */
   speed: number;
   /** Whether the lab is visible. An invisible lab pauses. */
@@ -50,17 +52,18 @@ const BUDGET = 12;
 
 export function createPlayer(remote: RemoteLab, events: PlayerEvents): Player {
   let [stop, isWaiting, last, isVisible, speed]: [(() => void) | null, boolean, number, boolean, number] = [null, false, 0, true, 1];
-  let [isOver, lag] = [remote.opened.frame.isOver, 0];
+  let [isOver, isClosed, lag] = [remote.opened.frame.isOver, false, 0];
   // The last value of a control that is being moved waits for the one before it.
   const moving = new Map<string, Move>();
   const take = (frame: Frame): void => {
+    if (isClosed) return;
     isOver = frame.isOver;
     events.frame(frame);
     if (frame.isOver) player.pause();
   };
   /** Shows the answer. Errors are shown to the reader and passed to the caller. */
-  const ask = (what: Promise<Frame>): Promise<void> => heard(what.then(take, (e: unknown) => {
-    events.failed(e);
+  const ask = (what: Promise<Frame>): Promise<void> => ignoreRejection(what.then(take, (e: unknown) => {
+    if (!isClosed) events.failed(e);
     throw e;
   }));
   const measure = (asked: number, behind: number): void => {
@@ -108,6 +111,7 @@ export function createPlayer(remote: RemoteLab, events: PlayerEvents): Player {
   };
   const player: Player = {
     get isPlaying() { return stop !== null; },
+    get isClosed() { return isClosed; },
     get speed() { return speed; },
     set speed(value) { [speed, lag] = [value, 0]; },
     get isVisible() { return isVisible; },
@@ -116,6 +120,7 @@ export function createPlayer(remote: RemoteLab, events: PlayerEvents): Player {
     play() {
       if (stop !== null) return;
       const begin = (): void => {
+        if (isClosed || stop !== null) return;
         last = performance.now();
         stop = onEveryFrame(tick);
         events.playing(true);
@@ -151,7 +156,7 @@ export function createPlayer(remote: RemoteLab, events: PlayerEvents): Player {
       }
       const move: Move = { next: value, sent: Promise.resolve(), done: Promise.resolve() };
       moving.set(label, move);
-      move.done = heard(setOnce(label, move));
+      move.done = ignoreRejection(setOnce(label, move));
       return move.done;
     },
     press(label) {
@@ -165,6 +170,7 @@ export function createPlayer(remote: RemoteLab, events: PlayerEvents): Player {
     drag: (drag) => ask(remote.ask("drag", drag)),
     close() {
       player.pause();
+      isClosed = true;
       remote.ask("free").catch(() => undefined);
     },
   };
@@ -172,7 +178,7 @@ export function createPlayer(remote: RemoteLab, events: PlayerEvents): Player {
 }
 
 /** A promise that may be ignored, because its rejection has been reported already. */
-function heard(promise: Promise<void>): Promise<void> {
+function ignoreRejection(promise: Promise<void>): Promise<void> {
   promise.catch(() => undefined);
   return promise;
 }

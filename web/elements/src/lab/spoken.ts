@@ -5,8 +5,6 @@ import type { Say } from "../text/messages.js";
 import { formatTime } from "../text/numbers.js";
 
 export interface Spoken {
-  /** Read aloud, politely. */
-  readonly region: HTMLElement;
   /** The last events, as a list. */
   readonly log: HTMLElement;
   /** Says something as soon as it is polite. */
@@ -17,6 +15,8 @@ export interface Spoken {
   readonly sentences: readonly string[];
   /** Forgets the list: the lab is back at its start. */
   clear(): void;
+  /** Says nothing more. */
+  dispose(): void;
 }
 
 /** The shortest time between two messages, ms. */
@@ -25,8 +25,8 @@ const PAUSE = 1200;
 const MOST_CONTACTS = 4;
 const MOST_LISTED = 60;
 
-export function createSpoken(say: Say): Spoken {
-  const region = h("p", { class: "hidden", role: "status", "aria-live": "polite", part: "status" });
+/** `region` is read aloud, politely. */
+export function createSpoken(region: HTMLElement, say: Say): Spoken {
   const list = h("ol", { class: "event-list" });
   const details = h("details", { class: "events", part: "events" }, h("summary", {}, say("events")), list);
   details.hidden = true;
@@ -43,7 +43,7 @@ export function createSpoken(say: Say): Spoken {
     timer ??= setTimeout(flush, Math.max(0, PAUSE - (performance.now() - last)));
   };
   return {
-    region, log: details, say: speak,
+    log: details, say: speak,
     report(events) {
       for (const sentence of summarize(events, say)) {
         speak(sentence);
@@ -58,6 +58,7 @@ export function createSpoken(say: Say): Spoken {
       list.replaceChildren();
       details.hidden = true;
     },
+    dispose: () => clearTimeout(timer),
   };
 }
 

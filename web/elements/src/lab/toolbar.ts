@@ -86,12 +86,17 @@ function createSpeeds(speeds: readonly number[], say: Say, actions: ToolbarActio
 }
 
 function createMenu({ hasPicture, first }: ToolbarOptions, say: Say, actions: ToolbarActions): HTMLElement {
-  const details = h("details", { class: "menu" }, h("summary", { "aria-label": say("more"), title: say("more") }, icon("more")));
+  const summary = h("summary", { "aria-label": say("more"), title: say("more") }, icon("more"));
+  const details = h("details", { class: "menu" }, summary);
+  const close = (): void => {
+    details.open = false;
+    summary.focus();
+  };
   const file = h("input", { type: "file", accept: ".json,application/json", hidden: true, tabindex: -1, "aria-label": say("openState") });
   const item = (text: string, act: () => void): HTMLElement => {
     const element = h("button", { type: "button" }, text);
     element.addEventListener("click", () => {
-      details.open = false;
+      close();
       act();
     });
     return element;
@@ -102,9 +107,7 @@ function createMenu({ hasPicture, first }: ToolbarOptions, say: Say, actions: To
     file.value = "";
   });
   details.addEventListener("keydown", (event) => {
-    if (event.key !== "Escape") return;
-    details.open = false;
-    details.querySelector("summary")?.focus();
+    if (event.key === "Escape") close();
   });
   details.addEventListener("focusout", (event) => {
     if (event.relatedTarget instanceof Node && !details.contains(event.relatedTarget)) details.open = false;

@@ -30,7 +30,7 @@ export interface Viewport {
   setCamera(fixed: number | null): void;
   /** Drags a body with the keyboard, or lets it go (`null`). */
   grab(body: number | null): void;
-  savePicture(title: string): void;
+  savePicture(title: string): Promise<void>;
   dispose(): void;
 }
 
@@ -140,9 +140,10 @@ export function createViewport(opened: Opened, spec: LabSpec, poster: string | n
       actions.say(`${say("grabbed", { body: name })} ${say("dragHelp", { body: name })}`);
       element.focus();
     },
-    savePicture(name) {
+    async savePicture(name) {
       const ratio = 2;
-      void view?.toPng(canvas.clientWidth * ratio, canvas.clientHeight * ratio).then((png) => saveFile(`${fileName(name)}.png`, png));
+      const png = await view?.toPng(canvas.clientWidth * ratio, canvas.clientHeight * ratio);
+      if (png !== undefined) saveFile(`${fileName(name)}.png`, png);
     },
     dispose() {
       forgetPaced(draw);

@@ -202,6 +202,43 @@ test("a state comes back from its link and from bytes, to the bit; a damaged one
   errors.none();
 });
 
+test("the focus stays in a lab that is opened again", chromiumOnly("Playwright chooses no file in Firefox"), async (t) => {
+  const { page, errors } = await open(t, "/drop.html");
+  await opened(page);
+  const focused = () => page.evaluate(() => document.activeElement.shadowRoot?.activeElement?.textContent ?? document.activeElement.localName);
+  const state = await page.evaluate(async () => new TextDecoder().decode(await document.querySelector("sim-lab").saveState()));
+  assert.equal(await focused(), "body");
+  const reopen = () => page.evaluate((text) => document.querySelector("sim-lab").openState(new TextEncoder().encode(text)), state);
+  await reopen();
+  assert.equal(await focused(), "body");
+  await page.getByRole("slider", { name: "gravity" }).focus();
+  await reopen();
+  assert.equal(await focused(), "Play");
+  const before = await page.locator("sim-lab article").elementHandle();
+  await page.locator(".menu summary").press("Enter");
+  const [chooser] = await Promise.all([page.waitForEvent("filechooser"), page.getByRole("button", { name: "Open a saved state" }).press("Enter")]);
+  await chooser.setFiles({ name: "state.json", mimeType: "application/json", buffer: Buffer.from(state) });
+  await page.waitForFunction((article) => !article.isConnected, before);
+  await opened(page);
+  assert.equal(await focused(), "Play");
+  errors.none();
+});
+
+test("a link and a picture that cannot be made are reported", async (t) => {
+  const { page, errors } = await open(t, "/drop.html");
+  await opened(page);
+  await page.evaluate(() => {
+    history.replaceState = () => { throw new Error("no history"); };
+    HTMLCanvasElement.prototype.toBlob = (take) => take(null);
+  });
+  for (const [name, why] of [["Copy a link to this state", "no history"], ["Save a picture", "the picture is too large"]]) {
+    await page.locator(".menu summary").click();
+    await page.getByRole("button", { name }).click();
+    await page.locator(".failure").getByText(why).waitFor();
+  }
+  errors.none();
+});
+
 test("what is wrong with a lab is said in its place", async (t) => {
   const { page } = await open(t, "/broken.html");
   const textOf = async (id) => {
