@@ -280,6 +280,7 @@ fn prepare<'l>(
         units::check_units(lab, &model, &programs, findings);
         rules::label_names_another::check_names(lab, &model, &programs, findings);
         rules::label_axis::check_axes(lab, &model, &programs, findings);
+        rules::label_energy::check_energies(lab, &programs, findings);
         rules::force_accumulates::check_controller(lab, &model, findings);
         rules::force_stays::check_buttons(lab, &programs, findings);
         rules::kept_over_reset::check_variables(lab, &programs, findings);

@@ -39,7 +39,8 @@ const VERTICAL: [&str; 11] = [
 const HORIZONTAL: [&str; 6] =
     ["horizontal", "horizontale", "waagrecht", "waagrechte", "orizzontale", "sideways"];
 /// Words that may stand beside the letter of an axis.
-const COORDINATE: [&str; 9] = [
+const COORDINATE: [&str; 10] = [
+    "above",
     "position",
     "coordinate",
     "velocity",
@@ -57,6 +58,10 @@ const MAX_LABELS: usize = 400;
 /// A direction is along an axis if its component is closer to 1.
 const ALIGNED: f64 = 1e-6;
 
+/// The indices of the axes.
+const Y: usize = 1;
+const Z: usize = 2;
+
 /// The direction that a label names.
 enum NamedDirection {
     Vertical(String),
@@ -66,13 +71,36 @@ enum NamedDirection {
 }
 
 pub(crate) fn check_axes(lab: &Lab, model: &Model, programs: &Programs, findings: &mut Vec<Finding>) {
-    let traces = lab.plots.iter().flat_map(|p| &p.traces).map(|t| &t.label);
-    let labels = traces.chain(lab.readouts.iter().map(|r| &r.label));
-    let all = labels.zip(&programs.probes).take(MAX_LABELS);
-    findings.extend(all.filter_map(|(label, probe)| check_axis(label, probe.bound.as_ref()?, model)));
+    let labels = || {
+        let traces = lab.plots.iter().flat_map(|p| &p.traces).map(|t| &t.label);
+        traces.chain(lab.readouts.iter().map(|r| &r.label)).take(MAX_LABELS)
+    };
+    let is_z =
+        |label: &Text| matches!(named_direction(label, model), Some(NamedDirection::Axis(axis)) if axis == Z);
+    let is_in_plane = !labels().any(is_z) && !uses_y(model, programs);
+    let all = labels().zip(&programs.probes);
+    findings
+        .extend(all.filter_map(|(label, probe)| check_axis(label, probe.bound.as_ref()?, model, is_in_plane)));
 }
 
-fn check_axis(label: &Text, bound: &Bound, model: &Model) -> Option<Finding> {
+/// Whether a program of a lab may read or write a coordinate along y of a free body.
+fn uses_y(model: &Model, programs: &Programs) -> bool {
+    programs.bound().any(|bound| {
+        let effects = bound.program.effects();
+        effects.reads.iter().chain(&effects.writes).any(|access| {
+            let Some(field) = FieldId::new(access.field.0 as usize) else { return false };
+            let is_y = |i: usize| element_axis(model, field, i).is_some_and(|a| a.of_three && a.index == Y);
+            match access.count {
+                Some(1) => is_y(access.first),
+                Some(count) => (access.first..access.first.saturating_add(count.min(6))).any(is_y),
+                None => false,
+            }
+        })
+    })
+}
+
+/// `is_in_plane`: the lab shows a motion in the plane of x and z, in which textbooks call the height y.
+fn check_axis(label: &Text, bound: &Bound, model: &Model, is_in_plane: bool) -> Option<Finding> {
     let effects = bound.program.effects();
     if effects.reads_everything || effects.any_ctx || effects.calls_values || !effects.ctx_reads.is_empty() {
         return None;
@@ -87,6 +115,7 @@ fn check_axis(label: &Text, bound: &Bound, model: &Model) -> Option<Finding> {
     let (named, meant) = match named_direction(label, model)? {
         NamedDirection::Vertical(word) if axis.index != up => (word, Some(up)),
         NamedDirection::Horizontal(word) if axis.index == up => (word, None),
+        NamedDirection::Axis(Y) if is_in_plane && axis.index == up => return None,
         // Along a slide, `x` is often any displacement.
         NamedDirection::Axis(named_axis) if axis.of_three && axis.index != named_axis => {
             (letter(named_axis).to_owned(), Some(named_axis))
@@ -156,13 +185,19 @@ fn named_direction(label: &Text, model: &Model) -> Option<NamedDirection> {
 mod tests {
     /// Whether a readout of a ball and of a cart on rails along x is reported.
     fn is_reported(option: &str, label: &str, expr: &str) -> bool {
+        are_reported(option, &[(label, expr)])
+    }
+
+    fn are_reported(option: &str, readouts: &[(&str, &str)]) -> bool {
         let xml = format!(
             "<mujoco><option {option}/><worldbody><body name='ball' pos='0 0 1'><freejoint/><geom size='.05'/></body>\
              <body name='cart' pos='1 0 1'><joint type='slide' axis='1 0 0'/><geom size='.05'/></body></worldbody></mujoco>"
         );
-        let lab =
-            serde_json::json!({"xml": xml, "stopAt": 0.1, "readouts": [{"label": label, "expr": expr}]})
-                .to_string();
+        let readouts: Vec<_> = readouts
+            .iter()
+            .map(|(label, expr)| serde_json::json!({"label": label, "expr": expr}))
+            .collect();
+        let lab = serde_json::json!({"xml": xml, "stopAt": 0.1, "readouts": readouts}).to_string();
         let report = crate::Checker::new(|_: &str| None::<String>).check("lab.json", &lab);
         report.findings.iter().any(|f| f.code == "label-axis")
     }
@@ -192,6 +227,11 @@ mod tests {
             ("height (rad)", "data.qvel[3]"),
         ] {
             assert!(!is_reported("", label, expr), "{label}: {expr}");
+        }
+        // In a vertical plane, y may be the height, but not where the lab uses the coordinate y or names another one z.
+        assert!(!is_reported("", "y (m)", "data.qpos[2]"));
+        for other in [("z (m)", "data.qpos[9]"), ("drift (m)", "data.qpos[1]"), ("drift (m/s)", "data.qvel[1]")] {
+            assert!(are_reported("", &[("y (m)", "data.qpos[2]"), other]), "{other:?}");
         }
         // Up is against gravity; on a slope by tilted gravity, no axis is.
         assert!(!is_reported("gravity='0 -9.81 0'", "height (m)", "data.qpos[1]"));

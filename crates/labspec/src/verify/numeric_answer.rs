@@ -45,10 +45,13 @@ pub(super) fn check_number(
     let asked = asked.as_ref().map(|unit| unit.as_str()).or(in_text.as_deref());
     let measured = asked.and_then(|_| units::of_claim(bound, &outcomes.nominal, text));
     let gives = measured.as_ref().map(written);
+    // An expression that is certainly a fraction of one is no number of percent.
+    let is_fraction = measured.as_ref().is_some_and(|d| d.is_exact() && d.is_number() && d.factor == 1.0);
     let unit = quote::answer_unit(asked, measured);
     let mut key = NumericKey { answer, tol, span: keyed.span.clone(), text, factor: unit.factor(), gives };
     if let Some(share) = asked.and_then(quote::percentage) {
-        key.factor = key.nearest_factor([1.0, share], value.value.to_number());
+        let other = if is_fraction { share } else { 1.0 };
+        key.factor = key.nearest_factor([other, share], value.value.to_number());
     }
     if let Some(refused) = key.refuse_unit(&unit, findings) {
         return refused;
@@ -207,20 +210,34 @@ impl NumericKey<'_> {
 
     /// The number to write, or the unit of the expression if the answer is right in it.
     fn help_for(&self, computed: f64) -> String {
-        // As many decimals as in the text, if the tolerance accepts them.
+        // As many decimals as in the text, if the tolerance accepts them and the first digit is among them.
         let decimals = self.answer.to_string().split_once('.').map_or(0, |(_, digits)| digits.len());
         let rounded = labspec_expr::to_fixed(computed, decimals);
-        let is_near = |x: f64| (x - computed).abs() <= 0.5 * self.tol;
+        let is_near = |x: f64| (x - computed).abs() <= 0.5 * self.tol.min(0.1 * computed.abs());
         let right = match rounded.parse::<f64>().is_ok_and(is_near) {
             true => rounded,
             false => significant(computed),
         };
         match &self.gives {
+            Some(unit) if self.factor != 1.0 && self.accepts(computed / self.factor) && unit == "1" => {
+                format!("remove the unit, without which the answer is right, or write {right}")
+            }
             Some(unit) if self.factor != 1.0 && self.accepts(computed / self.factor) => {
                 format!("write `\"unit\": \"{unit}\"`, in which the answer is right, or write {right}")
             }
-            _ => format!("write {right}, or correct the expression"),
+            _ => match self.metric_prefix(computed) {
+                Some(power) => format!(
+                    "write {right}, or the unit in which {} is right: the answer is 10^{power} times the value of the expression",
+                    self.answer
+                ),
+                None => format!("write {right}, or correct the expression"),
+            },
         }
+    }
+
+    /// The power of ten between two metric prefixes, or to percent, with which the value is the answer.
+    fn metric_prefix(&self, computed: f64) -> Option<i32> {
+        [3, -3, 2, -2, 6, -6].into_iter().find(|power| self.accepts(computed * 10f64.powi(*power)))
     }
 
     /// Checks that the tolerance rejects the values of mistakes.

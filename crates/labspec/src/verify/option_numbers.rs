@@ -237,8 +237,9 @@ fn around(inner: &Expr, off: f64) -> Option<RequiredRange> {
         (Some(centre), None) => (right, centre),
         _ => return None,
     };
+    // A quotient beside 1 is a relative difference; beside another number it is a part, such as half a period.
     if let ExprKind::Binary { op: BinaryOp::Divide, left, right } = &quantity.kind
-        && let Some(unit) = constant(right).filter(|c| *c > 0.0)
+        && let Some(unit) = constant(right).filter(|c| *c > 0.0 && centre == 1.0)
     {
         return single(left).then(|| RequiredRange {
             quantity: print(left),
@@ -320,6 +321,7 @@ mod tests {
             ("m > 1 && m < 2", "m", 1.0, 2.0),
             ("1 < 1000 * m", "1000 * m", 1.0, f64::INFINITY),
             ("abs(m / 2 - 1) < 0.5", "m", 1.0, 3.0),
+            ("abs(m / 2 - 0.75) < 0.25", "m / 2", 0.5, 1.0),
             ("b.t > 1.9 * a.t && a.t * 2.1 > b.t", "b.t / a.t", 1.9, 2.1),
             ("b.t / a.t > 1.9 && b.t <= 2.1 * a.t", "b.t / a.t", 1.9, 2.1),
         ] {

@@ -76,22 +76,30 @@ fn key(request: &RunRequest<'_, '_>) -> String {
         run.spec.map(|spec| spec.set.iter().map(|(label, v)| (label.as_str(), scalar(v))).collect());
     // A search sets controls of the only run of an object without `runs`, too.
     let controls: Vec<_> = run.controls.iter().map(|(label, x)| (label.as_str(), x)).collect();
-    format!("{} {set:?} {controls:?} {numerics:?} {texts:?}", key_without_controls(scene, run))
+    format!("{} {} {set:?} {controls:?} {numerics:?} {texts:?}", key_of_programs(scene, run), length_key(run))
 }
 
-/// The part of a key that is independent of controls, numerics and measures.
-fn key_without_controls(scene: &BoundScene<'_>, run: &BoundRun<'_>) -> String {
+/// The part of a key that is independent of controls, numerics, measures and the length of the run.
+fn key_of_programs(scene: &BoundScene<'_>, run: &BoundRun<'_>) -> String {
     let lab = &scene.scene.lab;
     let of_run = run.spec.map(|spec| {
         let press: Vec<_> = spec.press.iter().map(|(label, t)| (label.as_str(), t.value)).collect();
-        let length = [&spec.until, &spec.steps].map(|n| n.as_ref().map(|n| n.value));
-        let code = [&spec.setup, &spec.stop].map(|t| t.as_ref().map(|t| t.as_str()));
-        format!("{press:?} {length:?} {code:?}")
+        format!("{press:?} {:?}", spec.setup.as_ref().map(|t| t.as_str()))
     });
     format!("{:?} {} {:?} {:?} {of_run:?}", lab.span, scene.scene.model.identity(), lab.key, lab.controller)
 }
 
-/// A text of the settings of a run, equal for runs with the same settings: a control that a run does not set has its start value.
+/// A text of the length that a run sets.
+pub(super) fn length_key(run: &BoundRun<'_>) -> String {
+    let of_run = run.spec.map(|spec| {
+        let length = [&spec.until, &spec.steps].map(|n| n.as_ref().map(|n| n.value));
+        format!("{length:?} {:?}", spec.stop.as_ref().map(|t| t.as_str()))
+    });
+    format!("{of_run:?}")
+}
+
+/// A text of the settings of a run without its length, equal for runs with the same settings: a control that a run does not set has its
+/// start value.
 pub(super) fn settings_key(scene: &BoundScene<'_>, run: &BoundRun<'_>) -> String {
     let start = |control: &Control| match &control.kind {
         ControlKind::Slider { value, .. } => Some(Value::Number(value.value)),
@@ -102,7 +110,7 @@ pub(super) fn settings_key(scene: &BoundScene<'_>, run: &BoundRun<'_>) -> String
     let mut values: BTreeMap<&str, Value> =
         controls.iter().filter_map(|control| Some((control.label.as_str(), start(control)?))).collect();
     values.extend(run.spec.iter().flat_map(|spec| &spec.set).map(|(label, v)| (label.as_str(), scalar(v))));
-    format!("{} {values:?}", key_without_controls(scene, run))
+    format!("{} {values:?}", key_of_programs(scene, run))
 }
 
 /// A run after its setup, and the data for playing it.

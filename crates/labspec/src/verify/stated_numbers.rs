@@ -23,6 +23,8 @@ use labspec_expr::{parse_expression, print};
 const MAX_VALUES: usize = 20;
 /// Relative difference up to which a ratio in words is that of the simulation.
 const RATIO_TOLERANCE: f64 = 0.05;
+/// The largest width of a number, relative to it, whose digits identify it.
+const MAX_WIDTH: f64 = 0.15;
 /// The most words of an option that states a ratio without naming a quantity.
 const MAX_BARE_WORDS: usize = 3;
 
@@ -43,15 +45,17 @@ impl Measurement {
 
 /// What a question measures, as far as its dimension is known.
 struct Measurements {
-    /// The terms that the condition compares.
+    /// The terms that the condition compares, without their constant factors.
     compared: Vec<Measurement>,
+    /// The terms that have a constant factor, times this factor: the way there and back.
+    multiples: Vec<Measurement>,
     /// The values of each measure, one for each run that belongs to no sweep.
     measures: Vec<Vec<Measurement>>,
 }
 
 impl Measurements {
     fn all(&self) -> impl Iterator<Item = &Measurement> {
-        self.compared.iter().chain(self.measures.iter().flatten())
+        self.compared.iter().chain(&self.multiples).chain(self.measures.iter().flatten())
     }
 
     /// All pairs of which a text may state the difference or the ratio: two terms of the condition, or one measure in two runs.
@@ -96,15 +100,17 @@ fn contradiction(
     text: &Text,
     condition: &Text,
 ) -> Option<String> {
-    let compared = compared_terms(bound, outcome, condition)?;
-    let found = Measurements { compared, measures: measures(bound, outcome) };
-    let stated = quantities_in(&text.value, bound.stage().languages());
+    let (compared, multiples) = compared_terms(bound, outcome, condition)?;
+    let found = Measurements { compared, multiples, measures: measures(bound, outcome) };
+    let mut stated = quantities_in(&text.value, bound.stage().languages());
+    let given = given_numbers(bound, question, text);
     let is_compared = |q: &&OptionNumber| found.compared.iter().any(|term| term.in_unit_of(q).is_some());
     let about_it: Vec<&OptionNumber> = stated.iter().filter(is_compared).collect();
     let Some(first) = about_it.first() else {
+        // "after 1 s" names a setting, not what is compared.
+        stated.retain(|q| !given.iter().any(|number| number.is(q)));
         return wrong_unit(&stated, &found.compared).or_else(|| wrong_ratio(text, &found));
     };
-    let given = given_numbers(bound, question, text);
     if about_it.iter().any(|q| is_measured(q, &found) || given.iter().any(|number| number.is(q))) {
         return None;
     }
@@ -126,9 +132,12 @@ fn is_measured(stated: &OptionNumber, found: &Measurements) -> bool {
         || found.compared.iter().filter_map(value).reduce(|a, b| a + b).is_some_and(either_sign)
 }
 
-/// A number that is that of the simulation, with a unit of another dimension.
+/// A number that is that of the simulation, with a unit of another dimension. A number of one digit is near too many others.
 fn wrong_unit(stated: &[OptionNumber], compared: &[Measurement]) -> Option<String> {
     let [q] = stated else { return None };
+    if q.high - q.low > MAX_WIDTH * q.low.abs().max(q.high.abs()) {
+        return None;
+    }
     let differs = q.unit.dimension.is_some_and(|d| compared.iter().all(|term| !d.agrees(&term.dimension)));
     let scale = q.unit.percentage().unwrap_or(1.0);
     let close = |term: &&Measurement| {
@@ -170,65 +179,74 @@ fn wrong_ratio(text: &Text, found: &Measurements) -> Option<String> {
     none.then(|| format!("the text says {}, but the measured ratio is {}", stated.text, significant(nearest)))
 }
 
-/// The terms that a condition compares; `None` if it is no comparison, or the dimension of a term is not known.
+/// The terms that a condition compares, and those that have a constant factor, times this factor; `None` if it is no comparison, or the dimension of a term is not known.
 fn compared_terms(
     bound: &BoundVerify<'_>,
     outcome: &MeasuredRuns,
     condition: &Text,
-) -> Option<Vec<Measurement>> {
-    let mut texts = Vec::new();
-    terms_of_condition(&parse_expression(&condition.value).tree, &mut texts)?;
-    let mut all = Vec::new();
-    for value in texts {
-        let text = Text::derived(value, condition.span());
+) -> Option<(Vec<Measurement>, Vec<Measurement>)> {
+    let mut found = Vec::new();
+    terms_of_condition(&parse_expression(&condition.value).tree, &mut found)?;
+    let (mut terms, mut multiples) = (Vec::new(), Vec::new());
+    for Term { text, factor } in found {
+        let text = Text::derived(text, condition.span());
         let value = bound.find(outcome, &text, &mut Vec::new())?.value.to_number();
         let dimension = units::of_claim(bound, outcome, &text)?;
-        if value.is_finite() && dimension.is_exact() {
-            all.push(Measurement { value, dimension });
+        if !value.is_finite() || !dimension.is_exact() {
+            continue;
+        }
+        terms.push(Measurement { value, dimension });
+        if factor != 1.0 {
+            multiples.push(Measurement { value: factor * value, dimension });
         }
     }
-    (!all.is_empty()).then_some(all)
+    (!terms.is_empty()).then_some((terms, multiples))
+}
+
+/// A term of a condition: its text without the constant factor.
+struct Term {
+    text: String,
+    factor: f64,
 }
 
 /// Appends the terms on both sides of each comparison. `None` if the condition contains anything but comparisons.
-fn terms_of_condition(e: &Expr, texts: &mut Vec<String>) -> Option<()> {
+fn terms_of_condition(e: &Expr, found: &mut Vec<Term>) -> Option<()> {
     match &e.kind {
         ExprKind::Logical { op: LogicalOp::And | LogicalOp::Or, left, right } => {
-            terms_of_condition(left, texts)?;
-            terms_of_condition(right, texts)
+            terms_of_condition(left, found)?;
+            terms_of_condition(right, found)
         }
-        ExprKind::Unary { op: UnaryOp::Not, operand } => terms_of_condition(operand, texts),
+        ExprKind::Unary { op: UnaryOp::Not, operand } => terms_of_condition(operand, found),
         ExprKind::Binary { op, left, right } => {
             is_below(*op, false)?;
-            terms(left, texts);
-            terms(right, texts);
-            (!texts.is_empty()).then_some(())
+            terms(left, 1.0, found);
+            terms(right, 1.0, found);
+            (!found.is_empty()).then_some(())
         }
         _ => None,
     }
 }
 
-/// Appends the terms of a sum that are not numbers, without their constant factors.
-fn terms(e: &Expr, texts: &mut Vec<String>) {
+/// Appends the terms of a sum that are not numbers, with their constant factors apart.
+fn terms(e: &Expr, factor: f64, found: &mut Vec<Term>) {
     if constant(e).is_some() {
         return;
     }
     if let Some(inner) = magnitude(e) {
-        return terms(inner, texts);
+        return terms(inner, factor, found);
     }
     match &e.kind {
         ExprKind::Binary { op: BinaryOp::Add | BinaryOp::Subtract, left, right } => {
-            terms(left, texts);
-            terms(right, texts);
+            terms(left, factor, found);
+            terms(right, factor, found);
         }
-        ExprKind::Binary { op: BinaryOp::Multiply, left, right }
-            if constant(left).is_some() || constant(right).is_some() =>
-        {
-            terms(left, texts);
-            terms(right, texts);
-        }
-        ExprKind::Unary { op: UnaryOp::Minus, operand } => terms(operand, texts),
-        _ => texts.push(print(e)),
+        ExprKind::Binary { op: BinaryOp::Multiply, left, right } => match (constant(left), constant(right)) {
+            (Some(number), None) => terms(right, number * factor, found),
+            (None, Some(number)) => terms(left, number * factor, found),
+            _ => found.push(Term { text: print(e), factor }),
+        },
+        ExprKind::Unary { op: UnaryOp::Minus, operand } => terms(operand, factor, found),
+        _ => found.push(Term { text: print(e), factor }),
     }
 }
 
@@ -295,7 +313,7 @@ fn given_numbers(bound: &BoundVerify<'_>, question: &Question, text: &Text) -> V
             all.push((x.value, dimension));
         }
         let times = spec.until.iter().chain(spec.press.iter().map(|(_, time)| time));
-        all.extend(times.map(|x| (x.value, time)));
+        all.extend(times.chain(&scene.scene.lab.stop_at).map(|x| (x.value, time)));
     }
     all.into_iter().map(|(value, dimension)| GivenNumber { value, dimension }).collect()
 }
@@ -366,6 +384,17 @@ mod tests {
                 );
             }
         }
+    }
+
+    #[test]
+    fn a_constant_factor_belongs_to_what_is_stated() {
+        for (option, condition) in [
+            ("0.86 s in total, there and back", "abs(2 * earth.t - 0.86) < 0.02"),
+            ("half of it takes 0.53 s", "abs(moon.t / 2 - 0.53) < 0.01"),
+        ] {
+            assert_eq!(choice(option, condition), [""; 0], "{option}: {condition}");
+        }
+        assert_eq!(choice("0.99 s in total", "abs(2 * earth.t - 0.86) < 0.02").len(), 1);
     }
 
     #[test]

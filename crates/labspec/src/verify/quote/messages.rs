@@ -19,7 +19,9 @@ pub(super) fn printed(read: &Quoted, x: f64) -> String {
     } else if x.is_infinite() {
         "infinity".into()
     } else {
-        read.print(x)
+        let printed = read.print(x);
+        // A quote in another unit may have too few digits for any of the number.
+        if x != 0.0 && printed.parse() == Ok(0.0) { significant(x) } else { printed }
     }
 }
 
@@ -177,6 +179,9 @@ pub(super) fn wrong(claim: &QuoteClaim<'_>, outcome: &QuoteOutcome, read: &Quote
         NumberForm::Interval(..) => format!("write words that fit {right}, or correct the expression"),
         NumberForm::PlusMinus(..) | NumberForm::Range(..) => {
             format!("write a range that contains {right}, or correct the expression")
+        }
+        _ if outcome.computed != 0.0 && read.print(outcome.computed).parse() == Ok(0.0) => {
+            format!("write {right} in the unit of the expression, or convert the expression to the unit of the text")
         }
         _ if outcome.moved.is_empty() => {
             format!("write {right} in the text and in the quote, or correct the expression")
