@@ -60,7 +60,7 @@ fn compared_measure<'m>(verify: &Verify, a: &'m MeasuredRun, b: &MeasuredRun) ->
     let same = |(x, y): &(&'m (String, f64), &(String, f64))| x.0 == y.0 && x.1.to_bits() == y.1.to_bits();
     let mut measures = a.measures.iter().zip(&b.measures).filter(same).map(|(x, _)| x.0.as_str());
     let reads_both = |claim: &Text, measure: &str| {
-        [a, b].iter().all(|run| names(claim.as_str(), &format!("{}.{measure}", run.name)))
+        [a, b].iter().all(|run| names_measure(claim.as_str(), &run.name, measure, false))
     };
     measures.find(|measure| claims(verify).any(|claim| reads_both(claim, measure)))
 }
@@ -71,11 +71,14 @@ fn claims(verify: &Verify) -> impl Iterator<Item = &Text> {
     verify.options.iter().chain(&verify.value).chain(says)
 }
 
-/// Whether an expression names a measure of a run as a whole word.
-fn names(expression: &str, name: &str) -> bool {
+/// Whether an expression names a measure of a run, which needs no name if it `is_alone`.
+pub(super) fn names_measure(expression: &str, run: &str, measure: &str, is_alone: bool) -> bool {
     let is_word = |c: Option<char>| c.is_some_and(|c| c.is_alphanumeric() || matches!(c, '_' | '$' | '.'));
-    expression.match_indices(name).any(|(at, _)| {
-        let (before, after) = (&expression[..at], &expression[at + name.len()..]);
-        !is_word(before.chars().next_back()) && !is_word(after.chars().next())
-    })
+    let names = |name: &str| {
+        expression.match_indices(name).any(|(at, _)| {
+            let (before, after) = (&expression[..at], &expression[at + name.len()..]);
+            !is_word(before.chars().next_back()) && !is_word(after.chars().next())
+        })
+    };
+    names(&format!("{run}.{measure}")) || is_alone && names(measure)
 }

@@ -74,6 +74,7 @@ mod slider_effect;
 mod stated_numbers;
 mod survival;
 mod units;
+mod unstopped;
 mod value_kind;
 mod verdict;
 
