@@ -121,7 +121,7 @@ fn given_energy(bound: &Bound) -> Option<(Energy, &'static str)> {
             _ => None,
         };
     }
-    let all = |known: &[FieldId]| !fields.is_empty() && fields.iter().all(|(field, ..)| known.contains(field));
+    let all = |list: &[FieldId]| !fields.is_empty() && fields.iter().all(|(field, ..)| list.contains(field));
     match () {
         () if all(&[data::qvel, data::cvel]) => Some((Energy::Kinetic, "reads velocities and no position")),
         () if all(&POSITIONS) => Some((Energy::Potential, "reads positions and no velocity")),

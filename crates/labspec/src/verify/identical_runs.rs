@@ -67,7 +67,7 @@ fn compared_measure<'m>(verify: &Verify, a: &'m MeasuredRun, b: &MeasuredRun) ->
 
 /// The expressions of all claims of an object about single runs.
 fn claims(verify: &Verify) -> impl Iterator<Item = &Text> {
-    let says = verify.says.iter().flat_map(|said| &said.exprs);
+    let says = verify.says.iter().flat_map(|quote| &quote.exprs);
     verify.options.iter().chain(&verify.value).chain(says)
 }
 

@@ -57,6 +57,6 @@ fn latest_end(run: &BoundRun<'_>, scene: &BoundScene<'_>) -> Option<f64> {
 /// The expressions of claimed numbers about single runs. A condition is none.
 fn numbers<'v>(bound: &BoundVerify<'v>) -> impl Iterator<Item = &'v Text> {
     let verify = bound.verify;
-    let says = verify.says.iter().flat_map(|said| &said.exprs);
+    let says = verify.says.iter().flat_map(|quote| &quote.exprs);
     verify.value.iter().chain(says).filter(|text| !text.as_str().contains(['<', '>', '=']))
 }
