@@ -3,6 +3,7 @@
 use super::bound::BoundVerify;
 use super::bracket::{BracketClaim, conditions_agree, report_undecided_bracket};
 use super::condition::ConditionMargin;
+use super::condition_units::check_condition_units;
 use super::format::shorten;
 use super::found::MeasuredValue;
 use super::grounded::{decided_value, grounded_value};
@@ -63,7 +64,9 @@ pub(super) fn check_options(
     let texts = if form == AnswerForm::Statement { std::slice::from_ref(&question.q) } else { options };
     let stated = texts.iter().zip(conditions).zip(&holds).filter(|(_, holds)| **holds == Some(true));
     let stated: Vec<(&Text, &Text)> = stated.map(|(both, _)| both).collect();
-    if let Some(reason) = check_stated_numbers(bound, &outcomes.nominal, question, &stated, findings) {
+    if let Some(reason) = check_condition_units(bound, &outcomes.nominal, &stated, findings)
+        .or_else(|| check_stated_numbers(bound, &outcomes.nominal, question, &stated, findings))
+    {
         return judgement.judged(Verdict::Failed, reason);
     }
     for (_, condition) in &stated {

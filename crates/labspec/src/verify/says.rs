@@ -1,6 +1,7 @@
 //! Checks quotes: numbers and words of the text, and cells of tables.
 
 use super::quote_checker::{Quote, QuoteChecker, QuotedValue, check_number, check_words};
+use super::ratio_of_change::check_ratio_of_change;
 use super::{column, quote};
 use crate::finding::Finding;
 use crate::printable::counted;
@@ -43,6 +44,11 @@ fn check_line(
             Ok(found) => given.push((expr, found)),
             Err(reason) => return vec![Quote::unclear(&quoted.quote, &reason)],
         }
+    }
+    if let [expr] = exprs.as_slice()
+        && let Some(reason) = check_ratio_of_change(&quoted.quote, expr, findings)
+    {
+        return vec![Quote::unclear(&quoted.quote, &reason)];
     }
     let numbers = given.iter().filter(|(_, given)| !given.is_condition()).count();
     // With one expression, it belongs to the number that the quote states. With words and numbers, every number must be

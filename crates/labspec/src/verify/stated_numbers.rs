@@ -25,8 +25,10 @@ const MAX_VALUES: usize = 20;
 const RATIO_TOLERANCE: f64 = 0.05;
 /// The largest width of a number, relative to it, whose digits identify it.
 const MAX_WIDTH: f64 = 0.15;
-/// The most words of an option that states a ratio without naming a quantity.
+/// The most words of an option that states a ratio without naming a quantity, and of one that begins with a pronoun.
 const MAX_BARE_WORDS: usize = 3;
+const MAX_PRONOUN_WORDS: usize = 7;
+const PRONOUNS: [&str; 4] = ["it", "they", "this", "that"];
 
 /// A value with its dimension.
 #[derive(Clone, Copy, Debug)]
@@ -155,14 +157,18 @@ fn wrong_unit(stated: &[OptionNumber], compared: &[Measurement]) -> Option<Strin
 /// A ratio in words that is that of no two measured values.
 fn wrong_ratio(text: &Text, found: &Measurements) -> Option<String> {
     let stated = option_ratio(&text.value)?;
-    let is_bare = stated.named.is_empty() && text.value.split_whitespace().count() <= MAX_BARE_WORDS;
-    let is_named = |term: &Measurement| match is_bare {
+    let words: Vec<String> = text.value.split_whitespace().map(str::to_lowercase).collect();
+    let is_bare = stated.named.is_empty() && words.len() <= MAX_BARE_WORDS;
+    let is_pronoun = words.first().is_some_and(|word| PRONOUNS.contains(&word.as_str()));
+    // "It is six times as large" is about any quantity that is measured twice.
+    let is_open = stated.named.is_empty() && is_pronoun && words.len() <= MAX_PRONOUN_WORDS;
+    let is_named = |term: &Measurement| match is_bare || is_open {
         true => !term.dimension.is_number(),
         false => stated.named.iter().any(|d| d.agrees(&term.dimension)),
     };
     let about_it = found.all().find(|term| is_named(term))?.dimension;
     let both = |(a, b): &(&Measurement, &Measurement)| {
-        a.dimension.agrees(&about_it) && b.dimension.agrees(&about_it)
+        a.dimension.agrees(&b.dimension) && is_named(a) && (is_open || a.dimension.agrees(&about_it))
     };
     let ratios: Vec<f64> = found
         .pairs()
@@ -354,6 +360,8 @@ mod tests {
                 "at 1.1 s",
                 "0.63 s longer",
                 "2.5 times as long",
+                "it is 2.5 times as large",
+                "it grows by a factor of 2.5",
                 "longer",
                 "more than 1 s",
                 "never more than 2 s",
@@ -369,6 +377,10 @@ mod tests {
                 "at 9.9 s after the release",
                 "9.9 s longer",
                 "six times as long",
+                "it takes six times as long",
+                "it is five times as large",
+                "it grows sixfold",
+                "it grows by a factor of 6",
                 "more than 5 s",
                 "never more than 1 s",
                 "later than 5 s",

@@ -285,11 +285,7 @@ impl MeasureWalk<'_> {
                 self.clash(span, left, right);
                 left.sum(right)
             }
-            BinaryOp::Multiply => {
-                // A factor of 1 leaves the number as it is, but may change its unit: 1 kg.
-                let factor = self.literal(a).or(self.literal(b)).filter(|x| *x != 1.0);
-                left.product(right, factor)
-            }
+            BinaryOp::Multiply => left.product(right, self.literal(a).or(self.literal(b))),
             BinaryOp::Divide => {
                 let number = self.literal(a).or(self.literal(b).map(|x| 1.0 / x));
                 left.product(right.power(-1.0), number)

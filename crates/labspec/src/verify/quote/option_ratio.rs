@@ -37,7 +37,7 @@ impl OptionRatio {
 }
 
 /// Words for factors.
-const FACTOR_WORDS: [(&str, f64); 23] = [
+const FACTOR_WORDS: [(&str, f64); 36] = [
     ("twice", 2.0),
     ("double", 2.0),
     ("doubles", 2.0),
@@ -47,6 +47,19 @@ const FACTOR_WORDS: [(&str, f64); 23] = [
     ("halved", 0.5),
     ("triple", 3.0),
     ("triples", 3.0),
+    ("tripled", 3.0),
+    ("treble", 3.0),
+    ("trebles", 3.0),
+    ("quadruple", 4.0),
+    ("quadruples", 4.0),
+    ("quadrupled", 4.0),
+    ("twofold", 2.0),
+    ("threefold", 3.0),
+    ("fourfold", 4.0),
+    ("fivefold", 5.0),
+    ("sixfold", 6.0),
+    ("tenfold", 10.0),
+    ("hundredfold", 100.0),
     ("a third", 1.0 / 3.0),
     ("one third", 1.0 / 3.0),
     ("a quarter", 0.25),
@@ -133,6 +146,7 @@ pub(in crate::verify) fn option_ratio(option: &str) -> Option<OptionRatio> {
             let place = start..start + text.len();
             match q.unit.as_ref().filter(|unit| unit.is_own()) {
                 Some(unit) => (place, text, q.quoted.value * 10f64.powi(unit.share()?), true),
+                None if is_factor(folded.get(..start)?) => (place, text, q.quoted.value, false),
                 None => {
                     let behind = folded.get(place.end..)?.trim_start();
                     let times = ["times", "×"].into_iter().find(|word| behind.starts_with(word))?;
@@ -164,6 +178,12 @@ pub(in crate::verify) fn option_ratio(option: &str) -> Option<OptionRatio> {
     (!is_bound).then_some(OptionRatio { text, may_be, named })
 }
 
+/// Whether a number behind this text is a factor: `larger by a factor of`.
+fn is_factor(before: &str) -> bool {
+    let before = before.trim_end();
+    ["a factor of", "the factor", "by the factor of"].iter().any(|words| before.ends_with(words))
+}
+
 /// The dimensions of the quantities that the words of a text name.
 fn named_quantities(text: &str) -> Vec<Dimension> {
     let named = QUANTITY_WORDS.iter().filter(|(word, _)| split_words(text).any(|w| w == *word));
@@ -190,11 +210,13 @@ fn readings(x: f64, share: bool, before: &str, behind: &str) -> Vec<f64> {
     let is_part = share || x < 1.0;
     let is_comparative = next == "more" || SMALLER.contains(&next) || next.len() > 4 && next.ends_with("er");
     let again = split_words(behind).any(|w| w == "again");
+    let is_smaller = is_factor(before) && split_words(before).any(|w| SMALLER.contains(&w));
     let verb = |stems: &[&str]| {
         let mut all = split_words(before).chain(split_words(behind));
         all.any(|word| stems.iter().any(|stem| word.starts_with(stem)))
     };
     match () {
+        () if is_factor(before) && (is_smaller || verb(&DECREASES)) => vec![1.0 / x],
         () if is_comparative && SMALLER.contains(&next) && is_part => vec![1.0 - x],
         () if is_comparative && SMALLER.contains(&next) => vec![1.0 / x, 1.0 / (1.0 + x)],
         () if (is_comparative || again) && is_part => vec![1.0 + x],
@@ -231,6 +253,10 @@ mod tests {
             ("30 % longer", 1.3),
             ("3 times as long", 3.0),
             ("four times", 4.0),
+            ("it grows sixfold", 6.0),
+            ("it quadruples", 4.0),
+            ("larger by a factor of 6", 6.0),
+            ("smaller by a factor of 2", 0.5),
         ] {
             assert!(is(text, x), "{text} {x}");
         }

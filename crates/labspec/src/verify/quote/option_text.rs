@@ -46,7 +46,7 @@ const ELSE: [&str; 14] = [
 ];
 
 /// Comparatives of smaller quantities; every other comparative is one of larger quantities.
-pub(super) const SMALLER: [&str; 15] = [
+pub(in crate::verify) const SMALLER: [&str; 15] = [
     "less",
     "fewer",
     "shorter",
