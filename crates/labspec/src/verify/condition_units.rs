@@ -133,7 +133,7 @@ mod tests {
     fn errors(text: &str, condition: &str) -> Vec<String> {
         let xml = "<mujoco><worldbody><body><joint name='j' axis='0 1 0'/><geom size='.05' pos='0 0 -.5'/></body></worldbody></mujoco>";
         let lab = serde_json::json!({"stopAt": 4, "xml": xml, "setup": "data.qpos[0] = 0.5"});
-        let measure = serde_json::json!({"q": "max(data.qpos[0])", "T": "period(data.qpos[0])", "h": "max(data.body(1).xpos[0] + 0.5)", "e": "max(data.qpos[0]) / initial(data.qpos[0])"});
+        let measure = serde_json::json!({"q": "max(data.qpos[0])", "T": "period(data.qpos[0])", "e": "max(data.qpos[0]) / initial(data.qpos[0])"});
         let quiz = serde_json::json!({"id": "q", "questions": [{"q": text, "kind": "truefalse", "answer": true,
             "verify": {"lab": lab, "measure": measure, "options": [condition]}}]});
         let report = crate::Checker::new(|_: &str| None::<String>).check("q.json", &quiz.to_string());

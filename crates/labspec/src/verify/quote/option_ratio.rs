@@ -136,7 +136,9 @@ pub(in crate::verify) fn option_ratio(option: &str) -> Option<OptionRatio> {
         return None;
     }
     let (place, text, x, share) = match (quantities(chars).as_slice(), factor_words(&folded).as_slice()) {
-        ([], [(place, x)]) => (place.clone(), folded.get(place.clone())?.to_string(), *x, false),
+        ([], [(place, x), others @ ..]) if others.iter().all(|(_, y)| y == x) => {
+            (place.clone(), folded.get(place.clone())?.to_string(), *x, false)
+        }
         ([q], [])
             if q.refused.is_none() && matches!(q.quoted.form, NumberForm::Plain(_) | NumberForm::Share) =>
         {
