@@ -45,14 +45,10 @@ pub(super) fn check_number(
     let asked = asked.as_ref().map(|unit| unit.as_str()).or(in_text.as_deref());
     let measured = asked.and_then(|_| units::of_claim(bound, &outcomes.nominal, text));
     let gives = measured.as_ref().map(written);
-    // An expression that is certainly a fraction of one is no number of percent.
-    let is_fraction = measured.as_ref().is_some_and(|d| d.is_exact() && d.is_number() && d.factor == 1.0);
+    let is_fraction = measured.as_ref().is_some_and(|d| d.is_number() && d.factor == 1.0);
     let unit = quote::answer_unit(asked, measured);
     let mut key = NumericKey { answer, tol, span: keyed.span.clone(), text, factor: unit.factor(), gives };
-    if let Some(share) = asked.and_then(quote::percentage) {
-        let other = if is_fraction { share } else { 1.0 };
-        key.factor = key.nearest_factor([other, share], value.value.to_number());
-    }
+    key.choose_percent(asked, is_fraction, value.value.to_number());
     if let Some(refused) = key.refuse_unit(&unit, findings) {
         return refused;
     }
@@ -143,6 +139,13 @@ impl NumericKey<'_> {
     /// The distance of a number from the end of the tolerance, positive inside.
     fn margin(&self, x: f64) -> f64 {
         self.tol - (x - self.answer).abs()
+    }
+
+    /// Sets the factor of an answer in percent. An expression that certainly is a fraction of one is no number of percent.
+    fn choose_percent(&mut self, asked: Option<&str>, is_fraction: bool, value: f64) {
+        if let Some(share) = asked.and_then(quote::percentage) {
+            self.factor = self.nearest_factor([if is_fraction { share } else { 1.0 }, share], value);
+        }
     }
 
     /// The factor with which a value is nearest to the answer: an expression gives 16.3 % as 16.3 or as 0.163.

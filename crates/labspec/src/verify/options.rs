@@ -54,23 +54,8 @@ pub(super) fn check_options(
     if let Some(answer) = judgement.refuse(&undecided, findings) {
         return answer;
     }
-    let holds: Vec<Option<bool>> = judgement.weights.iter().map(|w| w.holds).collect();
-    let conditions = &verify.options;
-    if let Some(reason) =
-        check_option_numbers(bound, &outcomes.nominal, options, conditions, &holds, findings)
-    {
+    if let Some(reason) = judgement.contradiction(bound, &outcomes.nominal, question, findings) {
         return judgement.judged(Verdict::Failed, reason);
-    }
-    let texts = if form == AnswerForm::Statement { std::slice::from_ref(&question.q) } else { options };
-    let stated = texts.iter().zip(conditions).zip(&holds).filter(|(_, holds)| **holds == Some(true));
-    let stated: Vec<(&Text, &Text)> = stated.map(|(both, _)| both).collect();
-    if let Some(reason) = check_condition_units(bound, &outcomes.nominal, &stated, findings)
-        .or_else(|| check_stated_numbers(bound, &outcomes.nominal, question, &stated, findings))
-    {
-        return judgement.judged(Verdict::Failed, reason);
-    }
-    for (_, condition) in &stated {
-        check_tolerance(bound, &outcomes.nominal, condition, findings);
     }
     if judgement.is_alone(undecided.len()) {
         return judgement.judged(Verdict::Failed, "no other option is decided".to_string());
@@ -117,6 +102,32 @@ struct OptionJudgement<'q> {
 }
 
 impl OptionJudgement<'_> {
+    /// Compares the numbers in the texts of the options, or of the statement, with their conditions. The reason if one contradicts.
+    fn contradiction(
+        &self,
+        bound: &BoundVerify<'_>,
+        nominal: &MeasuredRuns,
+        question: &Question,
+        findings: &mut Vec<Finding>,
+    ) -> Option<String> {
+        let holds: Vec<Option<bool>> = self.weights.iter().map(|w| w.holds).collect();
+        let conditions = &self.verify.options;
+        let wrong = check_option_numbers(bound, nominal, self.options, conditions, &holds, findings);
+        if wrong.is_some() {
+            return wrong;
+        }
+        let is_statement = self.form == AnswerForm::Statement;
+        let texts = if is_statement { std::slice::from_ref(&question.q) } else { self.options };
+        let stated = texts.iter().zip(conditions).zip(&holds).filter(|(_, holds)| **holds == Some(true));
+        let stated: Vec<(&Text, &Text)> = stated.map(|(both, _)| both).collect();
+        let wrong = check_condition_units(bound, nominal, &stated, findings)
+            .or_else(|| check_stated_numbers(bound, nominal, question, &stated, findings));
+        if wrong.is_none() {
+            stated.iter().for_each(|(_, condition)| check_tolerance(bound, nominal, condition, findings));
+        }
+        wrong
+    }
+
     /// An option in a message: `2 ("It slides.")`.
     fn name(&self, i: usize) -> String {
         if self.form == AnswerForm::Statement {
