@@ -48,7 +48,11 @@ fn check_control(control: &Control, findings: &mut Vec<Finding>) {
         Finding::new(
             EXCHANGED_OPTIONS,
             option.value.span(),
-            format!("{} has the value that {} states", named(option.text.as_str()), named(owner.text.as_str())),
+            format!(
+                "{} has the value that {} states",
+                named(option.text.as_str()),
+                named(owner.text.as_str())
+            ),
         )
         .related(owner.value.span(), "the value of the other option")
         .help("exchange the values, or correct the texts"),

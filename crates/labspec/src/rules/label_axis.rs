@@ -79,8 +79,9 @@ pub(crate) fn check_axes(lab: &Lab, model: &Model, programs: &Programs, findings
         |label: &Text| matches!(named_direction(label, model), Some(NamedDirection::Axis(axis)) if axis == Z);
     let is_in_plane = !labels().any(is_z) && !uses_y(model, programs);
     let all = labels().zip(&programs.probes);
-    findings
-        .extend(all.filter_map(|(label, probe)| check_axis(label, probe.bound.as_ref()?, model, is_in_plane)));
+    findings.extend(
+        all.filter_map(|(label, probe)| check_axis(label, probe.bound.as_ref()?, model, is_in_plane)),
+    );
 }
 
 /// Whether a program of a lab may read or write a coordinate along y of a free body.
@@ -193,10 +194,8 @@ mod tests {
             "<mujoco><option {option}/><worldbody><body name='ball' pos='0 0 1'><freejoint/><geom size='.05'/></body>\
              <body name='cart' pos='1 0 1'><joint type='slide' axis='1 0 0'/><geom size='.05'/></body></worldbody></mujoco>"
         );
-        let readouts: Vec<_> = readouts
-            .iter()
-            .map(|(label, expr)| serde_json::json!({"label": label, "expr": expr}))
-            .collect();
+        let readouts: Vec<_> =
+            readouts.iter().map(|(label, expr)| serde_json::json!({"label": label, "expr": expr})).collect();
         let lab = serde_json::json!({"xml": xml, "stopAt": 0.1, "readouts": readouts}).to_string();
         let report = crate::Checker::new(|_: &str| None::<String>).check("lab.json", &lab);
         report.findings.iter().any(|f| f.code == "label-axis")
@@ -230,7 +229,9 @@ mod tests {
         }
         // In a vertical plane, y may be the height, but not where the lab uses the coordinate y or names another one z.
         assert!(!is_reported("", "y (m)", "data.qpos[2]"));
-        for other in [("z (m)", "data.qpos[9]"), ("drift (m)", "data.qpos[1]"), ("drift (m/s)", "data.qvel[1]")] {
+        for other in
+            [("z (m)", "data.qpos[9]"), ("drift (m)", "data.qpos[1]"), ("drift (m/s)", "data.qvel[1]")]
+        {
             assert!(are_reported("", &[("y (m)", "data.qpos[2]"), other]), "{other:?}");
         }
         // Up is against gravity; on a slope by tilted gravity, no axis is.

@@ -69,7 +69,11 @@ fn check_energy(label: &Text, bound: &Bound) -> Option<Finding> {
             label.span(),
             format!("the label names the {} energy, but the expression {what}", named.name()),
         )
-        .help(format!("read the {} energy, `lib.energy().{}`, or correct the label", named.name(), named.name()))
+        .help(format!(
+            "read the {} energy, `lib.energy().{}`, or correct the label",
+            named.name(),
+            named.name()
+        ))
         .related(bound.text.span(), format!("this is the {} energy", given.name()))
     })
 }

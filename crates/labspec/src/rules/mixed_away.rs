@@ -5,9 +5,9 @@ use crate::check::setconst::digits;
 use crate::run::{self, Play, Session, Start};
 use crate::spec::Control;
 use crate::stress;
-use labspec_monitors::stress::geom_label;
 use labspec_core::{Contact, Model, Plan};
 use labspec_finding::{Example, Finding, Layer, Rule, Severity};
+use labspec_monitors::stress::geom_label;
 use std::ops::ControlFlow;
 
 /// A control sets a contact parameter of one geom, but the contact has another value.

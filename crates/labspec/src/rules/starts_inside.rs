@@ -1,9 +1,9 @@
 use crate::check::observations::ObservedLab;
 use crate::check::setconst::digits;
 use crate::run::{self, Play, Session, Start};
-use labspec_monitors::stress::geom_label;
 use labspec_core::{Plan, half_thickness_of_pair};
 use labspec_finding::{Example, Finding, Layer, Rule, Severity};
+use labspec_monitors::stress::geom_label;
 use std::ops::ControlFlow;
 
 /// A body begins deep inside another one.

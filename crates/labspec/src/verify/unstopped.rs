@@ -40,7 +40,7 @@ pub(super) fn check_unstopped_runs(
                     super::format::significant(until)
                 );
                 Finding::new(rules::STOP_NEVER_HOLDS, claim.span(), message)
-                    .help("let the run be longer, with a larger `until`, or correct its `stop`")
+                    .help("let the run be longer, with a larger `until`, or correct its `stop`; that the event does not happen is a condition: `t > 4.9`")
                     .related(stop.span(), "this never holds")
             }));
         }
