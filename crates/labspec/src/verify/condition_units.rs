@@ -145,7 +145,7 @@ mod tests {
     fn a_condition_compares_in_the_unit_of_the_text() {
         for (text, condition) in [
             ("It never swings beyond 10°.", "q < 10"),
-            ("Its period is less than 3000 ms.", "T < 3000"),
+            ("Its period is less than 300 ms.", "T < 300"),
             ("It keeps more than 50 % of its amplitude.", "0.5 < e && e < 50"),
         ] {
             let all = errors(text, condition);
