@@ -59,8 +59,9 @@ impl Image {
             (_, Ok([only])) => cut_faces(&only?, t)?,
             (_, Err(pictures)) => {
                 let side = pictures.iter().flatten().next()?.width;
-                let face = |picture: Option<Pixels>| picture.unwrap_or_else(|| Pixels::plain(t, side));
-                pictures.into_iter().map(|picture| square(face(picture), side)).collect::<Option<_>>()?
+                let plain = Arc::new(Levels::new(Pixels::plain(t, side)));
+                let face = |picture: Option<Pixels>| picture.map_or(Some(plain.clone()), |p| square(p, side));
+                pictures.into_iter().map(face).collect::<Option<_>>()?
             }
         };
         let repeats = t.kind == FLAT_KIND;
@@ -239,14 +240,16 @@ fn cut_faces(picture: &Pixels, t: &Texture) -> Option<Vec<Arc<Levels>>> {
     if side == 0 || picture.height / rows != side {
         return None;
     }
+    // Faces without a cell share one picture, which the limit of pixels does not count.
+    let plain = Arc::new(Levels::new(Pixels::plain(t, side)));
     let cells: Vec<Option<usize>> = t.gridlayout.chars().map(|letter| LETTERS.find(letter)).collect();
     let face = |face: usize| {
         let cell = cells.iter().take(rows * columns).rposition(|cell| *cell == Some(face));
-        let Some(cell) = cell else { return Pixels::plain(t, side) };
+        let Some(cell) = cell else { return plain.clone() };
         let [left, top] = [cell % columns * side, cell / columns * side];
-        picture.selected([side, side], |x, y| [left + x, top + y])
+        Arc::new(Levels::new(picture.selected([side, side], |x, y| [left + x, top + y])))
     };
-    (0..FACES).map(|i| square(face(i), side)).collect()
+    Some((0..FACES).map(face).collect())
 }
 
 #[cfg(test)]

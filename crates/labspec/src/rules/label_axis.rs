@@ -91,11 +91,9 @@ fn uses_y(model: &Model, programs: &Programs) -> bool {
         effects.reads.iter().chain(&effects.writes).any(|access| {
             let Some(field) = FieldId::new(access.field.0 as usize) else { return false };
             let is_y = |i: usize| element_axis(model, field, i).is_some_and(|a| a.of_three && a.index == Y);
-            match access.count {
-                Some(1) => is_y(access.first),
-                Some(count) => (access.first..access.first.saturating_add(count.min(6))).any(is_y),
-                None => false,
-            }
+            // A free joint has its three coordinates among six elements in a row.
+            let count = access.count.map_or(6, |count| count.min(6));
+            (access.first..access.first.saturating_add(count)).any(is_y)
         })
     })
 }

@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Decided by `check_unstopped_runs` in `verify/unstopped.rs`.
+/// Decided by `refuse_run_length` in `verify/unstopped.rs`.
 pub const STOP_NEVER_HOLDS: &Rule = &Rule {
     code: "stop-never-holds",
     severity: Severity::Error,

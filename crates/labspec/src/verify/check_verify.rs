@@ -8,7 +8,6 @@ use super::outcome::MeasuredRuns;
 use super::outcomes::{Outcomes, run_all_numerics};
 use super::quote::RenderedText;
 use super::quote_checker::QuoteChecker;
-use super::unstopped::check_unstopped_runs;
 use super::{answer, column, exact, says, units};
 use crate::finding::Finding;
 use crate::json::read::named;
@@ -29,7 +28,6 @@ pub fn check_verify(
     match run_all_numerics(bound, verify, findings) {
         Some(outcomes) => {
             check_identical_runs(bound, &outcomes.nominal, findings);
-            check_unstopped_runs(bound, &outcomes.nominal, findings);
             judge(bound, &outcomes, verify, question, rendered, findings)
         }
         None => not_executable(verify, question, "a run cannot be made"),

@@ -69,7 +69,8 @@ fn mismatch(
 
 /// The factor from the unit of a term to that of a stated number, if the number is the one of the comparison and the units differ.
 fn factor_to(stated: &OptionNumber, found: &Dimension, number: f64) -> Option<f64> {
-    if number == 0.0 || !is_number(stated, number.abs()) {
+    let differs = (stated.number().abs() - number.abs()).abs() > 1e-6 * number.abs();
+    if number == 0.0 || differs {
         return None;
     }
     let factor = match stated.unit.percentage() {
@@ -77,16 +78,6 @@ fn factor_to(stated: &OptionNumber, found: &Dimension, number: f64) -> Option<f6
         None => conversion(&stated.unit.dimension?, found)?,
     };
     ((factor - 1.0).abs() > 1e-3).then_some(factor)
-}
-
-/// Whether a text states this number.
-fn is_number(stated: &OptionNumber, number: f64) -> bool {
-    let value = match (stated.low.is_finite(), stated.high.is_finite()) {
-        (true, true) => 0.5 * (stated.low + stated.high),
-        (true, false) => stated.low,
-        _ => stated.high,
-    };
-    (value.abs() - number).abs() <= 1e-6 * number
 }
 
 fn unit_name(found: &Dimension) -> String {

@@ -39,6 +39,13 @@ pub(super) struct MeasuredValue {
     trace: Option<Rc<Evaluated>>,
 }
 
+impl MeasuredValue {
+    /// The compiled text; `None` where the value was recorded by another engine.
+    pub(super) fn claim(&self) -> Option<&CompiledClaim> {
+        self.trace.as_ref().map(|evaluated| &*evaluated.claim)
+    }
+}
+
 /// An expression that is undecided because of a NaN.
 #[derive(Clone, Debug)]
 pub(super) struct Undecided {

@@ -7,6 +7,7 @@ use super::found::{Cause, MeasuredValue, Undecided};
 use super::layout::name_of_axis;
 use super::no_value::{self, MissingMeasure};
 use super::outcome::MeasuredRuns;
+use super::unstopped::refuse_run_length;
 use crate::finding::Finding;
 use crate::rules;
 use crate::source::Text;
@@ -52,7 +53,7 @@ pub(super) fn decided_value(
     }
     match &found.undecided {
         Some(undecided) => Err(report_undecided(bound, outcome, text, undecided, findings)),
-        None => Ok(found),
+        None => refuse_run_length(bound, outcome, &found, text, findings).map(|()| found),
     }
 }
 

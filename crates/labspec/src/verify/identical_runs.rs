@@ -61,7 +61,7 @@ fn compared_measure<'m>(verify: &Verify, a: &'m MeasuredRun, b: &MeasuredRun) ->
     let same = |(x, y): &(&'m (String, f64), &(String, f64))| x.0 == y.0 && x.1 == y.1;
     let mut measures = a.measures.iter().zip(&b.measures).filter(same).map(|(x, _)| x.0.as_str());
     let reads_both = |claim: &Text, measure: &str| {
-        [a, b].iter().all(|run| names_measure(claim.as_str(), &run.name, measure, false))
+        [a, b].iter().all(|run| names_measure(claim.as_str(), &format!("{}.{measure}", run.name)))
     };
     measures.find(|measure| claims(verify).any(|claim| reads_both(claim, measure)))
 }
@@ -72,14 +72,11 @@ fn claims(verify: &Verify) -> impl Iterator<Item = &Text> {
     verify.options.iter().chain(&verify.value).chain(says)
 }
 
-/// Whether an expression names a measure of a run, which needs no name if it `is_alone`.
-pub(super) fn names_measure(expression: &str, run: &str, measure: &str, is_alone: bool) -> bool {
+/// Whether an expression contains `run.measure` as whole words.
+fn names_measure(expression: &str, name: &str) -> bool {
     let is_word = |c: Option<char>| c.is_some_and(|c| c.is_alphanumeric() || matches!(c, '_' | '$' | '.'));
-    let names = |name: &str| {
-        expression.match_indices(name).any(|(at, _)| {
-            let (before, after) = (&expression[..at], &expression[at + name.len()..]);
-            !is_word(before.chars().next_back()) && !is_word(after.chars().next())
-        })
-    };
-    names(&format!("{run}.{measure}")) || is_alone && names(measure)
+    expression.match_indices(name).any(|(at, _)| {
+        let (before, after) = (&expression[..at], &expression[at + name.len()..]);
+        !is_word(before.chars().next_back()) && !is_word(after.chars().next())
+    })
 }

@@ -185,7 +185,8 @@ fn wrong_ratio(text: &Text, found: &Measurements) -> Option<String> {
     none.then(|| format!("the text says {}, but the measured ratio is {}", stated.text, significant(nearest)))
 }
 
-/// The terms that a condition compares, and those that have a constant factor, times this factor; `None` if it is no comparison, or the dimension of a term is not known.
+/// The terms that a condition compares, and those that have a constant factor, times this factor; `None` if it is no comparison, or the
+/// dimension of a term cannot be computed.
 fn compared_terms(
     bound: &BoundVerify<'_>,
     outcome: &MeasuredRuns,
@@ -282,11 +283,7 @@ struct GivenNumber {
 impl GivenNumber {
     /// Whether a text states this number, in any unit.
     fn is(&self, stated: &OptionNumber) -> bool {
-        let number = match (stated.low.is_finite(), stated.high.is_finite()) {
-            (true, true) => 0.5 * (stated.low + stated.high),
-            (true, false) => stated.low,
-            _ => stated.high,
-        };
+        let number = stated.number();
         let factor = match self.dimension.zip(stated.unit.dimension) {
             Some((of_setting, expected)) if of_setting.agrees(&expected) => {
                 expected.factor / of_setting.factor

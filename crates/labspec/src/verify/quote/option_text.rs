@@ -23,6 +23,17 @@ pub(in crate::verify) struct OptionNumber {
     pub(in crate::verify) alone: bool,
 }
 
+impl OptionNumber {
+    /// The number itself; of a bound, the bound.
+    pub(in crate::verify) fn number(&self) -> f64 {
+        match (self.low.is_finite(), self.high.is_finite()) {
+            (true, true) => 0.5 * (self.low + self.high),
+            (true, false) => self.low,
+            _ => self.high,
+        }
+    }
+}
+
 /// Relative tolerance of a number: as it is printed, and with "about" before it.
 const PRINTED: f64 = 0.05;
 const ABOUT: f64 = 0.1;
