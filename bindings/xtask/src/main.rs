@@ -61,9 +61,20 @@ fn main() -> ExitCode {
     }
 }
 
-/// A module: its folder in the package, its features, and the additional formats in which it is written.
-const MODULES: [(&str, &[&str], &[&str]); 2] =
-    [("player", &["--no-default-features"], &[]), ("checker", &[], &["node", "web"])];
+/// A module of the npm package.
+struct Module {
+    /// Its folder in the package.
+    name: &'static str,
+    /// Arguments of cargo.
+    features: &'static [&'static str],
+    /// Formats in which it is written in addition.
+    others: &'static [&'static str],
+}
+
+const MODULES: [Module; 2] = [
+    Module { name: "player", features: &["--no-default-features"], others: &[] },
+    Module { name: "checker", features: &[], others: &["node", "web"] },
+];
 
 /// The WebAssembly features of the modules, for `wasm-opt`. Relaxed SIMD is never used, because its
 /// results depend on the machine.
@@ -88,42 +99,45 @@ fn keeps_names() -> bool {
 }
 
 fn build(folder: Option<PathBuf>) -> Result<PathBuf, String> {
-    let crates = Path::new(env!("CARGO_MANIFEST_DIR")).with_file_name("wasm");
-    let web = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../web");
-    let folder = folder.unwrap_or_else(|| crates.join("pkg"));
-    let profile = std::env::var("LABSPEC_PROFILE").unwrap_or_else(|_| "release".into());
+    let folder = folder.unwrap_or_else(|| crates().join("pkg"));
     // Without rustup, the target may be installed in another way; otherwise the build reports that it is missing.
     let _ = Command::new("rustup").args(["target", "add", TARGET]).output();
-    let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| crates.join("target"), PathBuf::from);
     let only = std::env::var("LABSPEC_MODULE").ok();
-    if let Some(unknown) = only.as_deref().filter(|only| MODULES.iter().all(|(name, ..)| name != only)) {
+    if let Some(unknown) = only.as_deref().filter(|only| MODULES.iter().all(|module| module.name != *only)) {
         return Err(format!("LABSPEC_MODULE is player or checker, not {unknown}"));
     }
-    for (name, features, others) in MODULES {
-        if only.as_deref().is_some_and(|only| only != name) {
-            continue;
-        }
-        let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-        cargo.args(["build", "--profile", &profile, "--quiet", "--locked", "--target", TARGET]);
-        // With the flags of `.cargo/config.toml`.
-        let flags = reproducible::same_paths(&page::root(), &target);
-        reproducible::same_names(&mut cargo)?;
-        cargo.arg("--config").arg(format!("target.{TARGET}.rustflags={flags:?}"));
-        let built = cargo.args(features).current_dir(&crates).status();
-        if !built.map_err(|e| format!("cannot run cargo: {e}"))?.success() {
-            return Err(format!(
-                "the {name} was not built; is the target installed? `rustup target add {TARGET}`"
-            ));
-        }
-        let module = target.join(TARGET).join(&profile).join("labspec_wasm.wasm");
-        let inside = web.join("labspec/generated").join(name);
-        let forms = others.iter().map(|other| (*other, folder.join(other)));
+    let chosen = MODULES.iter().filter(|module| only.as_deref().is_none_or(|only| only == module.name));
+    // Most of the time of a module is one thread of the linker: the modules are built at the same time.
+    std::thread::scope(|scope| {
+        let building: Vec<_> = chosen.map(|module| scope.spawn(|| module.build(&folder))).collect();
+        building.into_iter().try_for_each(|module| module.join().unwrap_or_else(|_| Err("a build panicked".into())))
+    })?;
+    unpacker(&web(), &web().join("labspec/generated"))?;
+    Ok(folder)
+}
+
+/// The crate of the modules.
+fn crates() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).with_file_name("wasm")
+}
+
+fn web() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../web")
+}
+
+impl Module {
+    /// Builds the module in all its formats: for the npm package, and in folders of `folder`.
+    fn build(&self, folder: &Path) -> Result<(), String> {
+        let profile = std::env::var("LABSPEC_PROFILE").unwrap_or_else(|_| "release".into());
+        let compiled = self.compile(&profile)?;
+        let inside = web().join("labspec/generated").join(self.name);
+        let forms = self.others.iter().map(|other| (*other, folder.join(other)));
         // All formats contain the same module, so it is optimized once.
         let mut optimized: Option<[Vec<u8>; 2]> = None;
         for (form, out) in std::iter::once(("web", inside.clone())).chain(forms) {
             let mut bindgen = wasm_bindgen_cli_support::Bindgen::new();
             bindgen
-                .input_path(&module)
+                .input_path(&compiled)
                 .typescript(true)
                 .remove_name_section(profile != "release")
                 .out_name("labspec");
@@ -146,16 +160,35 @@ fn build(folder: Option<PathBuf>) -> Result<PathBuf, String> {
                         if panics::to_traps(&file)? == 0 {
                             return Err(format!("{}: no function that panics was found", file.display()));
                         }
-                        optimize(&web, &file)?;
+                        optimize(&web(), &file)?;
                         optimized = Some([before, read()?]);
                     }
                 }
             }
         }
-        packed(&inside.join("labspec_bg.wasm"))?;
+        packed(&inside.join("labspec_bg.wasm"))
     }
-    unpacker(&web, &web.join("labspec/generated"))?;
-    Ok(folder)
+
+    /// The module as cargo builds it, in a folder of its own: builds of the same folder wait for each other.
+    fn compile(&self, profile: &str) -> Result<PathBuf, String> {
+        let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| crates().join("target"), PathBuf::from);
+        let target = target.join(self.name);
+        let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+        cargo.args(["build", "--profile", profile, "--quiet", "--locked", "--target", TARGET]);
+        cargo.arg("--target-dir").arg(&target);
+        // With the flags of `.cargo/config.toml`.
+        let flags = reproducible::same_paths(&page::root(), &target);
+        reproducible::same_names(&mut cargo)?;
+        cargo.arg("--config").arg(format!("target.{TARGET}.rustflags={flags:?}"));
+        let built = cargo.args(self.features).current_dir(crates()).status();
+        if !built.map_err(|e| format!("cannot run cargo: {e}"))?.success() {
+            return Err(format!(
+                "the {} was not built; is the target installed? `rustup target add {TARGET}`",
+                self.name
+            ));
+        }
+        Ok(target.join(TARGET).join(profile).join("labspec_wasm.wasm"))
+    }
 }
 
 /// Writes a module beside itself in the order in which scripts contain it: see [`pack`].

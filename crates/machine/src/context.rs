@@ -42,6 +42,9 @@ const MAX_UNNAMED: usize = 1000;
 /// Limit on the events stored per run.
 const MAX_EVENTS: usize = 16;
 
+/// The number of objects above which unreachable ones are freed before the state is copied.
+const MAX_COPIED: usize = 16;
+
 impl Context {
     /// A context with all variables `undefined`.
     pub fn new() -> Context {
@@ -110,6 +113,15 @@ impl Context {
     pub(crate) fn collect(&mut self, input: Option<&Value>) {
         let Context { heap, globals, unnamed, values, .. } = self;
         heap.collect(globals.iter().chain(unnamed.values()).chain(&*values).chain(input));
+    }
+
+    /// A copy of the state, without the lists of expressions that were evaluated earlier: a copy of each of them for each of many runs
+    /// would be most of the work.
+    pub fn copy(&mut self) -> Context {
+        if self.heap.places() > MAX_COPIED {
+            self.collect(None);
+        }
+        self.clone()
     }
 
     /// Returns a `ctx` variable.

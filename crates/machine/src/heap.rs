@@ -257,6 +257,11 @@ impl Heap {
         self.bytes > self.threshold.max(MIN_COLLECTION)
     }
 
+    /// The number of places for objects.
+    pub(crate) fn places(&self) -> usize {
+        self.objects.len()
+    }
+
     /// Frees all objects that are unreachable from the roots.
     pub(crate) fn collect<'a>(&mut self, roots: impl Iterator<Item = &'a Value>) {
         let mut reached = vec![false; self.objects.len()];
@@ -297,6 +302,7 @@ impl Heap {
             }
         }
         self.free.clear();
+        self.objects.truncate(reached.iter().rposition(|reached| *reached).map_or(0, |last| last + 1));
         for (index, (object, reached)) in self.objects.iter_mut().zip(&reached).enumerate() {
             if !reached {
                 *object = HeapObject::Free;

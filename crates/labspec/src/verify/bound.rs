@@ -197,7 +197,7 @@ impl<'a> BoundVerify<'a> {
             let mut cached: BTreeMap<(usize, &str), ValueKind> = BTreeMap::new();
             let mut measure = |run: usize, m: usize| {
                 let (named, scene) = (self.measure_at(run, m)?, self.runs.get(run)?.scene);
-                let kind = |session: &mut Session<'a>| kind_of(named, &session.world, &session.context);
+                let kind = |session: &mut Session<'a>| kind_of(named, &session.world, &mut session.context);
                 let place = (scene, named.text.as_str());
                 if let Some(cached) = cached.get(&place) {
                     return Some(*cached);

@@ -277,7 +277,7 @@ impl BoundVerify<'_> {
         let parts = claim
             .program
             .as_ref()
-            .map(|program| self.idle(|session| kinds_of(program, &session.world, &session.context)));
+            .map(|program| self.idle(|session| kinds_of(program, &session.world, &mut session.context)));
         let parts = parts.flatten().unwrap_or_default();
         let count = inputs.numbers.len();
         // A value that is not simulated is constant, so its kind is unknown.

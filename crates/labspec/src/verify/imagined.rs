@@ -85,7 +85,7 @@ impl BoundVerify<'_> {
                 let world = &session.world;
                 let source = DrawSource { seeds: [seed, 0], manner: DrawMode::Any };
                 let host = Anything { world, source, toward: None, time: Some(0.0) };
-                let mut imagined = ImaginedRun { host, context: session.context.clone() };
+                let mut imagined = ImaginedRun { host, context: session.context.copy() };
                 let mut measure = Measure::new(program, text);
                 for sample in 0..CTX_SAMPLES {
                     imagined.host.source = source.at_sample(sample);
@@ -195,7 +195,7 @@ impl BoundVerify<'_> {
             let programs = texts.into_iter().any(reads_ctx).then(|| self.scenes.get(scene)).flatten();
             self.idle_in(scene, |session| {
                 let host = Anything { world: &session.world, source, toward, time: Some(0.0) };
-                let mut imagined = ImaginedRun { host, context: session.context.clone() };
+                let mut imagined = ImaginedRun { host, context: session.context.copy() };
                 let mut running: Vec<Measure<'_>> =
                     here().map(|(.., m)| Measure::new(&m.program, &m.text)).collect();
                 let mut parts = on_the_spot.filter(|_| run == 0).map(|p| Measure::new(p, &nowhere));

@@ -1,7 +1,8 @@
-//! Finds quotes such as "41 % longer" whose expression is the ratio of two measures instead of their relative difference.
+//! Finds quotes such as "41 % longer" and "falls by 41 %" whose expression is the ratio of two measures instead of their relative
+//! difference.
 
 use super::option_numbers::constant;
-use super::quote::SMALLER;
+use super::quote::{DECREASES, INCREASES, SMALLER};
 use crate::finding::Finding;
 use crate::rules;
 use crate::source::Text;
@@ -13,19 +14,23 @@ const LARGER: [&str; 14] = [
     "deeper", "stronger", "later", "wider",
 ];
 
+/// A verb is at most this number of words before `by`: `grows in length by`.
+const VERB_WORDS: usize = 4;
+/// And the number at most this number of words behind it: `by about`.
+const ADVERBS: usize = 1;
+
 /// Reports a quote that states a change in percent, with an expression that is certainly a ratio. Returns the reason.
 pub(super) fn check_ratio_of_change(
     quote: &Text,
     expr: &Text,
     findings: &mut Vec<Finding>,
 ) -> Option<String> {
-    let word = word_of_change(quote.as_str())?;
+    let Change { message, is_smaller } = change(quote.as_str())?;
     let [a, b] = ratio(&parse_expression(expr.as_str()).tree)?;
-    let message = format!("the text says how much {word} it is, but the expression is the ratio of both");
     findings.push(
         Finding::error(rules::QUOTE_WRONG, quote.span(), message.clone())
             .why("a value that is 41 % of another one is 59 % smaller: the ratio is not the change")
-            .help(if SMALLER.contains(&word.as_str()) {
+            .help(if is_smaller {
                 format!("write `100 * (1 - {a} / {b})` as the expression, and its value in the text")
             } else {
                 format!("write `100 * ({a} / {b} - 1)` as the expression, and its value in the text")
@@ -35,12 +40,40 @@ pub(super) fn check_ratio_of_change(
     Some(message)
 }
 
-/// The comparative behind a number of percent: `41 % longer`.
-fn word_of_change(quote: &str) -> Option<String> {
-    let (_, behind) = ["%", "percent", "per cent"].into_iter().find_map(|unit| quote.split_once(unit))?;
+/// A change in percent that a quote states.
+struct Change {
+    message: String,
+    is_smaller: bool,
+}
+
+/// The change that a quote states: a comparative behind the number of percent (`41 % longer`), or a verb before it (`falls by 41 %`).
+fn change(quote: &str) -> Option<Change> {
+    let lower = quote.to_lowercase();
+    let (before, behind) =
+        ["%", "percent", "per cent"].into_iter().find_map(|unit| lower.split_once(unit))?;
     let word: String = behind.trim_start().chars().take_while(|c| c.is_alphabetic()).collect();
-    let word = word.to_lowercase();
-    (LARGER.contains(&word.as_str()) || SMALLER.contains(&word.as_str())).then_some(word)
+    let is_smaller = SMALLER.contains(&word.as_str());
+    if is_smaller || LARGER.contains(&word.as_str()) {
+        let message = format!("the text says how much {word} it is, but the expression is the ratio of both");
+        return Some(Change { message, is_smaller });
+    }
+    let mut words = before.rsplit(|c: char| !c.is_alphabetic()).filter(|word| !word.is_empty());
+    // `to` before the number would name what remains. An adverb may be between: `by about 41 %`.
+    let near: Vec<&str> = words.by_ref().take(ADVERBS + 1).take_while(|word| *word != "by").collect();
+    if near.len() > ADVERBS {
+        return None;
+    }
+    let others: Vec<&str> = words.take(VERB_WORDS).collect();
+    let verb = |stems: &[&str]| others.iter().find(|word| stems.iter().any(|stem| word.starts_with(stem)));
+    let (verb, is_smaller) = match (verb(&DECREASES), verb(&INCREASES)) {
+        (Some(verb), None) => (verb, true),
+        (None, Some(verb)) => (verb, false),
+        _ => return None,
+    };
+    let message = format!(
+        "the text says by how much it changes (\"{verb} by\"), but the expression is the ratio of both"
+    );
+    Some(Change { message, is_smaller })
 }
 
 /// The two terms of an expression that is the ratio of one measure in two runs, perhaps times a number.
@@ -90,6 +123,9 @@ mod tests {
             ("41 % longer", "100 * earth.t / moon.t"),
             ("41 % shorter", "100 * (earth.t / moon.t)"),
             ("41 percent more", "earth.t / moon.t"),
+            ("falls by 41 %", "100 * earth.t / moon.t"),
+            ("is reduced by about 41 %", "100 * earth.t / moon.t"),
+            ("The time grows by 41 %", "100 * earth.t / moon.t"),
         ] {
             assert!(is_reported(quote, expr), "{quote}: {expr}");
         }
@@ -97,6 +133,10 @@ mod tests {
             ("41 % longer", "100 * (earth.t / moon.t - 1)"),
             ("41 % of the time", "100 * earth.t / moon.t"),
             ("41 %", "100 * earth.t / moon.t"),
+            ("falls to 41 %", "100 * earth.t / moon.t"),
+            ("differs by 41 %", "100 * earth.t / moon.t"),
+            ("divided by 41 %", "100 * earth.t / moon.t"),
+            ("falls by 41 %", "100 * (1 - earth.t / moon.t)"),
             ("41 % longer", "100 * a.gain / a.t"),
             ("41 % longer", "percent"),
         ] {

@@ -56,13 +56,13 @@ impl ValueKind {
 const DRAWS: usize = 48;
 
 /// The kind of a measure, determined by evaluating its program with random inputs.
-pub(super) fn kind_of(measure: &CompiledText<'_>, world: &World, context: &Context) -> ValueKind {
-    program_kind(&measure.program, world, &mut context.clone())
+pub(super) fn kind_of(measure: &CompiledText<'_>, world: &World, context: &mut Context) -> ValueKind {
+    program_kind(&measure.program, world, &mut context.copy())
 }
 
 /// The kinds of the aggregates of a program, in order.
-pub(super) fn kinds_of(program: &Program, world: &World, context: &Context) -> Vec<ValueKind> {
-    let mut context = context.clone();
+pub(super) fn kinds_of(program: &Program, world: &World, context: &mut Context) -> Vec<ValueKind> {
+    let mut context = context.copy();
     program.aggregates().iter().map(|a| aggregate_kind(a, world, &mut context)).collect()
 }
 

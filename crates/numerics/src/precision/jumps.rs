@@ -22,8 +22,8 @@ struct SavedStart {
 }
 
 impl SavedStart {
-    fn save(session: &Session<'_>) -> SavedStart {
-        SavedStart { state: numbers(session, state::INTEGRATION), context: session.context.clone() }
+    fn save(session: &mut Session<'_>) -> SavedStart {
+        SavedStart { state: numbers(session, state::INTEGRATION), context: session.context.copy() }
     }
 
     fn restore(&self, session: &mut Session<'_>) {
@@ -49,7 +49,7 @@ fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
 
 /// The values that the controller would write now. The session is unchanged afterwards, except for the counted work.
 fn controls_now(session: &mut Session<'_>) -> Vec<f64> {
-    let (start, context) = (numbers(session, CONTROLLED_STATE), session.context.clone());
+    let (start, context) = (numbers(session, CONTROLLED_STATE), session.context.copy());
     session.step_by(|_, _| Ok(()));
     let next = numbers(session, CONTROLLED_STATE);
     let world = &mut session.world;

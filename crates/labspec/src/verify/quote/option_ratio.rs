@@ -76,9 +76,16 @@ const FACTOR_WORDS: [(&str, f64); 36] = [
     ("ten times", 10.0),
 ];
 
+/// Numbers, and parts, of mixed factors: `two and a half times`.
+const NUMBER_WORDS: [(&str, f64); 7] =
+    [("one", 1.0), ("two", 2.0), ("three", 3.0), ("four", 4.0), ("five", 5.0), ("six", 6.0), ("seven", 7.0)];
+const PART_WORDS: [(&str, f64); 4] =
+    [("a half", 0.5), ("a third", 1.0 / 3.0), ("a quarter", 0.25), ("three quarters", 0.75)];
+
 /// Beginnings of verbs that state a decrease or an increase: `drops by a third` and `drops to a third` differ.
-const DECREASES: [&str; 8] = ["los", "drop", "fall", "decreas", "shrink", "reduc", "sink", "declin"];
-const INCREASES: [&str; 6] = ["gain", "grow", "rise", "increas", "climb", "add"];
+pub(in crate::verify) const DECREASES: [&str; 8] =
+    ["los", "drop", "fall", "decreas", "shrink", "reduc", "sink", "declin"];
+pub(in crate::verify) const INCREASES: [&str; 6] = ["gain", "grow", "rise", "increas", "climb", "add"];
 
 /// Words for quantities, with units of each.
 const QUANTITY_WORDS: [(&str, &[&str]); 34] = [
@@ -131,11 +138,13 @@ pub(in crate::verify) fn option_ratio(option: &str) -> Option<OptionRatio> {
     let folded = plain_text(option).to_lowercase();
     let chars: Vec<char> = folded.chars().take(2000).collect();
     let chars = Chars(&chars);
-    // Example: `two and a half times`.
-    if folded.contains("and a half") {
+    let factors = factor_words(&folded);
+    // Example: `two and a half days`, which states no ratio.
+    let mut halves = folded.match_indices("and a half");
+    if halves.any(|(half, _)| !factors.iter().any(|(place, _)| place.contains(&half))) {
         return None;
     }
-    let (place, text, x, share) = match (quantities(chars).as_slice(), factor_words(&folded).as_slice()) {
+    let (place, text, x, share) = match (quantities(chars).as_slice(), factors.as_slice()) {
         ([], [(place, x), others @ ..]) if others.iter().all(|(_, y)| y == x) => {
             (place.clone(), folded.get(place.clone())?.to_string(), *x, false)
         }
@@ -199,11 +208,24 @@ fn factor_words(lower: &str) -> Vec<(Range<usize>, f64)> {
         !letter(lower.get(..place.start).and_then(|t| t.chars().next_back()))
             && !letter(lower.get(place.end..).and_then(|t| t.chars().next()))
     };
-    let places = FACTOR_WORDS.iter().filter_map(|(word, x)| {
+    let place_of = |word: &str| {
         let mut found = lower.match_indices(word).map(|(start, found)| start..start + found.len());
-        Some((found.find(is_word)?, *x))
+        found.find(is_word)
+    };
+    let mixed = NUMBER_WORDS.iter().flat_map(|(number, x)| {
+        PART_WORDS.iter().flat_map(move |(part, y)| {
+            // Without `times`, the number may be of anything: `two and a half days`.
+            [format!("{number} and {part} times"), format!("{number} times and {part}")]
+                .map(|words| (words, x + y))
+        })
     });
-    places.collect()
+    let mixed: Vec<(Range<usize>, f64)> =
+        mixed.filter_map(|(words, x)| Some((place_of(&words)?, x))).collect();
+    let is_in_mixed =
+        |place: &Range<usize>| mixed.iter().any(|(m, _)| m.start < place.end && place.start < m.end);
+    let single = FACTOR_WORDS.iter().filter_map(|(word, x)| Some((place_of(word)?, *x)));
+    let single: Vec<_> = single.filter(|(place, _)| !is_in_mixed(place)).collect();
+    [mixed, single].concat()
 }
 
 /// The values of a ratio that a factor and the words around it may state.
@@ -256,6 +278,8 @@ mod tests {
             ("3 times as long", 3.0),
             ("four times", 4.0),
             ("it grows sixfold", 6.0),
+            ("two and a half times as far", 2.5),
+            ("one and a third times", 4.0 / 3.0),
             ("it quadruples", 4.0),
             ("larger by a factor of 6", 6.0),
             ("smaller by a factor of 2", 0.5),
@@ -273,6 +297,8 @@ mod tests {
             ("30 %", 0.05),
             ("30 % less", 1.3),
             ("20 times", 5.0),
+            ("two and a half times as far", 2.0),
+            ("two and a half times as far", 0.5),
         ] {
             assert!(!is(text, x), "{text} {x}");
         }
@@ -280,7 +306,7 @@ mod tests {
             "twice as much as 3 s",
             "half or double",
             "halfway",
-            "two and a half times",
+            "two and a half days",
             "less than half as long",
             "nearly twice as long",
             "three balls",
