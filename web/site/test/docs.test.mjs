@@ -19,7 +19,7 @@ assert.equal(built.status, 0, built.stdout + built.stderr);
 const site = (await serve(suite, out)).url;
 
 /** What leads from a page to other places of the site, and what is wrong in it. */
-const read = (page) => page.evaluate(() => {
+const contents = (page) => page.evaluate(() => {
   const links = [...document.querySelectorAll("a[href]")].map((link) => link.href);
   const dead = [...document.querySelectorAll(".dead-link, .image-missing, .image-elsewhere")].map((part) => part.textContent);
   const empty = [...document.images].filter((image) => image.complete && image.naturalWidth === 0).map((image) => image.src);
@@ -31,13 +31,20 @@ test("from the first page, every page is reached; no link is dead, and the conso
   assert.equal(await first.page.locator("h1").textContent(), "Documentation");
   const waiting = [`${site}index.html`];
   const [seen, wanted, files, others] = [new Map(), [], new Set(), new Map()];
+  const [folders, found] = [new Map(), new Set(waiting)];
+  /** Whether a page is opened. In Firefox, which has the links and texts that Chromium has, ten pages of each folder are. */
+  const isOpened = (address) => {
+    const folder = new URL(".", address).href;
+    folders.set(folder, (folders.get(folder) ?? 0) + 1);
+    return isChromium || folders.get(folder) <= 10;
+  };
   /** Reads a page, and adds those to which it leads. */
   async function visit(page, address) {
     const response = await page.goto(address);
     assert.equal(response.status(), 200, address);
     // Firefox reports a request that the service worker is answering when the page is left.
     if (!isChromium && (await page.locator("sim-lab").count()) > 0) await page.waitForLoadState("networkidle");
-    const { links, ids, dead } = await read(page);
+    const { links, ids, dead } = await contents(page);
     assert.deepEqual(dead, [], address);
     seen.set(address, new Set(ids));
     for (const link of links) {
@@ -50,7 +57,10 @@ test("from the first page, every page is reached; no link is dead, and the conso
         others.set(target, address);
       } else {
         wanted.push([address, target, decodeURIComponent(hash.slice(1))]);
-        if (!waiting.includes(target)) waiting.push(target);
+        if (!found.has(target)) {
+          found.add(target);
+          if (isOpened(target)) waiting.push(target);
+        }
       }
     }
   }
@@ -61,8 +71,9 @@ test("from the first page, every page is reached; no link is dead, and the conso
     await Promise.all(addresses.map((address, i) => visit(pages[i].page, address)));
   }
   for (const [target, from] of others) assert.equal((await first.page.request.get(target)).status(), 200, `${from}: ${target}`);
-  for (const [from, target, id] of wanted) assert.ok(id === "" || seen.get(target)?.has(id), `${from} links to ${target}#${id}`);
-  assert.ok(seen.size > 45 && [...seen.keys()].some((address) => address.endsWith("specs/lessons/10-the-book-that-turns-over.html")), String(seen.size));
+  const read = wanted.filter(([, target]) => isChromium || seen.has(target));
+  for (const [from, target, id] of read) assert.ok(id === "" || seen.get(target)?.has(id), `${from} links to ${target}#${id}`);
+  assert.ok(seen.size > (isChromium ? 300 : 45) && [...seen.keys()].some((address) => address.endsWith("specs/lessons/10-the-book-that-turns-over.html")), String(seen.size));
   t.diagnostic(`${seen.size} pages, ${wanted.length} links between them, ${files.size} to the sources`);
   for (const { none } of pages) none();
 });

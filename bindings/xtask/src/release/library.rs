@@ -94,7 +94,7 @@ fn files(release: &Release, platform: &Platform) -> Result<Vec<Packed>, String> 
 
 /// Builds the libraries for a processor; returns their folder.
 fn build(release: &Release, platform: &Platform, processor: &Processor) -> Result<PathBuf, String> {
-    let (mut cargo, built) = platform.cargo(release, processor, "c-for")?;
+    let (mut cargo, built) = platform.cargo(release, processor)?;
     let manifest = release.root.join("bindings/c/Cargo.toml");
     cargo
         .args([

@@ -135,15 +135,18 @@ impl Platform {
         }
     }
 
-    /// A command of cargo that builds for a processor, and the folder in which it builds. `purpose` begins the name of the folder.
+    /// The folder in which everything is built for a processor: program, library and wheel share what they depend on.
+    pub(super) fn folder(&self, release: &Release, processor: &Processor) -> PathBuf {
+        release.target.join(format!("for-{}", processor.name.unwrap_or(&self.triple)))
+    }
+
+    /// A command of cargo that builds for a processor, and the folder of what it builds.
     pub(super) fn cargo(
         &self,
         release: &Release,
         processor: &Processor,
-        purpose: &str,
     ) -> Result<(Command, PathBuf), String> {
-        let name = processor.name.unwrap_or(&self.triple);
-        let folder = release.target.join(format!("{purpose}-{name}"));
+        let folder = self.folder(release, processor);
         let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
         cargo.current_dir(&release.root);
         self.settings(&mut cargo, release, processor)?;

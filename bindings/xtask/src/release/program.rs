@@ -84,7 +84,7 @@ fn separated(platform: &Platform, program: PathBuf, name: &str) -> Result<(PathB
 
 /// Builds the program for a processor.
 fn program(release: &Release, platform: &Platform, processor: &Processor) -> Result<PathBuf, String> {
-    let (mut cargo, built) = platform.cargo(release, processor, "for")?;
+    let (mut cargo, built) = platform.cargo(release, processor)?;
     cargo.args(["build", "--release", "--quiet", "--locked", "--package", "labspec-cli"]);
     cargo.args(Platform::sizes(release));
     if platform.objcopy().is_some() {

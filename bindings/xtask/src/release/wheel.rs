@@ -98,8 +98,7 @@ fn build(
         // The linker of another machine comes with its C library, whose version is that of this machine's Debian.
         maturin.args(["--target", &platform.triple, "--compatibility", "linux"]);
     }
-    let folder = release.target.join(format!("wheel-for-{name}"));
-    maturin.env("CARGO_TARGET_DIR", folder).env("SOURCE_DATE_EPOCH", PACKED_AT);
+    maturin.env("CARGO_TARGET_DIR", platform.folder(release, processor)).env("SOURCE_DATE_EPOCH", PACKED_AT);
     maturin.current_dir(release.root.join("bindings/python"));
     output_of(&mut maturin)?;
     files_of(&out)?.into_iter().next().ok_or_else(|| "maturin built no wheel".into())
