@@ -110,7 +110,9 @@ fn build(folder: Option<PathBuf>) -> Result<PathBuf, String> {
     // Most of the time of a module is one thread of the linker: the modules are built at the same time.
     std::thread::scope(|scope| {
         let building: Vec<_> = chosen.map(|module| scope.spawn(|| module.build(&folder))).collect();
-        building.into_iter().try_for_each(|module| module.join().unwrap_or_else(|_| Err("a build panicked".into())))
+        building
+            .into_iter()
+            .try_for_each(|module| module.join().unwrap_or_else(|_| Err("a build panicked".into())))
     })?;
     unpacker(&web(), &web().join("labspec/generated"))?;
     Ok(folder)
@@ -171,7 +173,8 @@ impl Module {
 
     /// The module as cargo builds it, in a folder of its own: builds of the same folder wait for each other.
     fn compile(&self, profile: &str) -> Result<PathBuf, String> {
-        let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| crates().join("target"), PathBuf::from);
+        let target =
+            std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| crates().join("target"), PathBuf::from);
         let target = target.join(self.name);
         let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
         cargo.args(["build", "--profile", profile, "--quiet", "--locked", "--target", TARGET]);
