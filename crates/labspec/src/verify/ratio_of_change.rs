@@ -57,6 +57,10 @@ fn change(quote: &str) -> Option<Change> {
         let message = format!("the text says how much {word} it is, but the expression is the ratio of both");
         return Some(Change { message, is_smaller });
     }
+    // `by 41 % of the first rise` is a part of something.
+    if word == "of" {
+        return None;
+    }
     let mut words = before.rsplit(|c: char| !c.is_alphabetic()).filter(|word| !word.is_empty());
     // `to` before the number would name what remains. An adverb may be between: `by about 41 %`.
     let near: Vec<&str> = words.by_ref().take(ADVERBS + 1).take_while(|word| *word != "by").collect();
@@ -134,6 +138,7 @@ mod tests {
             ("41 % of the time", "100 * earth.t / moon.t"),
             ("41 %", "100 * earth.t / moon.t"),
             ("falls to 41 %", "100 * earth.t / moon.t"),
+            ("rises by 41 % of the first rise", "100 * second.rise / first.rise"),
             ("differs by 41 %", "100 * earth.t / moon.t"),
             ("divided by 41 %", "100 * earth.t / moon.t"),
             ("falls by 41 %", "100 * (1 - earth.t / moon.t)"),
