@@ -108,7 +108,10 @@ fn build(release: &Release, platform: &Platform, processor: &Processor) -> Resul
             "--manifest-path",
         ])
         .arg(manifest);
-    cargo.args(["--", "-C"]).arg(format!("link-arg=-Wl,-soname,{}", NAMES[1]));
+    cargo
+        .args(["--", "-C"])
+        .arg(format!("link-arg=-Wl,-soname,{}", NAMES[1]))
+        .args(platform.without_symbols());
     if !cargo.status().map_err(|e| format!("cannot run cargo: {e}"))?.success() {
         return Err("the C library was not built".into());
     }

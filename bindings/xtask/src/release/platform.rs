@@ -127,6 +127,11 @@ impl Platform {
         Some(self.cross.map_or("objcopy", |cross| cross.objcopy)).filter(|name| is_installed(name))
     }
 
+    /// The arguments of rustc with which a library is linked without its symbols.
+    pub(super) fn without_symbols(&self) -> &'static [&'static str] {
+        if self.objcopy().is_some() { &["-C", "link-arg=-s"] } else { &[] }
+    }
+
     /// The arguments with which cargo and maturin read `release.toml`: none if nothing is optimized.
     pub(super) fn sizes(release: &Release) -> Vec<std::ffi::OsString> {
         match release.quick {
@@ -165,8 +170,10 @@ impl Platform {
         release: &Release,
         processor: &Processor,
     ) -> Result<(), String> {
-        // Symbols are needed only for profiling and for reading a crash; the program has them in an archive.
-        command.env("CARGO_PROFILE_RELEASE_STRIP", "symbols");
+        // Symbols are needed only for profiling and for reading a crash. Where they can be separated afterwards (the program has them in an
+        // archive), what program, library and wheel depend on is built with the same settings, and so once.
+        let strip = if self.objcopy().is_some() { "none" } else { "symbols" };
+        command.env("CARGO_PROFILE_RELEASE_STRIP", strip);
         if release.quick {
             command.env("CARGO_PROFILE_RELEASE_OPT_LEVEL", "0").env("CARGO_PROFILE_RELEASE_LTO", "off");
             command.env("CARGO_PROFILE_RELEASE_DEBUG", "0");

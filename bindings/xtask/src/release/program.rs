@@ -87,9 +87,6 @@ fn program(release: &Release, platform: &Platform, processor: &Processor) -> Res
     let (mut cargo, built) = platform.cargo(release, processor)?;
     cargo.args(["build", "--release", "--quiet", "--locked", "--package", "labspec-cli"]);
     cargo.args(Platform::sizes(release));
-    if platform.objcopy().is_some() {
-        cargo.env("CARGO_PROFILE_RELEASE_STRIP", "none");
-    }
     match cargo.status().map_err(|e| format!("cannot run cargo: {e}"))?.success() {
         true => Ok(built.join(PROGRAM)),
         false => Err("the program was not built".into()),

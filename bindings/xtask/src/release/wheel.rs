@@ -91,6 +91,9 @@ fn build(
     let mut maturin = Command::new(tools.join("bin/maturin"));
     maturin.args(["build", "--release", "--quiet", "--locked", "--out"]).arg(&out);
     maturin.args(Platform::sizes(release));
+    if !platform.without_symbols().is_empty() {
+        maturin.arg("--strip");
+    }
     platform.settings(&mut maturin, release, processor)?;
     if platform.is_here() {
         maturin.args(["--interpreter", python]);
