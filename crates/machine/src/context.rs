@@ -168,3 +168,28 @@ impl Context {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_copy_has_the_variables_and_no_lists_of_earlier_expressions() {
+        let mut context = Context::new();
+        for i in 0..100 {
+            let list = context.heap.numbers(&[f64::from(i), 0.5]).unwrap();
+            if i == 40 {
+                context.set(2, list);
+            }
+        }
+        assert_eq!(context.clone().heap.places(), 100);
+        let mut copy = context.copy();
+        assert_eq!(copy.heap.places(), 41);
+        assert_eq!(copy.heap.to_numbers(copy.get(2)), Some(vec![40.0, 0.5]));
+        // The copy goes on without the original.
+        let list = copy.heap.numbers(&[7.0]).unwrap();
+        copy.set(2, list);
+        assert_eq!(copy.heap.to_numbers(copy.get(2)), Some(vec![7.0]));
+        assert_eq!(context.heap.to_numbers(context.get(2)), Some(vec![40.0, 0.5]));
+    }
+}
