@@ -97,17 +97,9 @@ fn build(release: &Release, platform: &Platform, processor: &Processor) -> Resul
     let (mut cargo, built) = platform.cargo(release, processor)?;
     let manifest = release.root.join("bindings/c/Cargo.toml");
     cargo
-        .args([
-            "rustc",
-            "--release",
-            "--quiet",
-            "--locked",
-            "--lib",
-            "--package",
-            "labspec-c",
-            "--manifest-path",
-        ])
-        .arg(manifest);
+        .args(["rustc", "--quiet", "--locked", "--lib", "--package", "labspec-c", "--manifest-path"])
+        .arg(manifest)
+        .args(platform.profile(release, processor).0);
     cargo
         .args(["--", "-C"])
         .arg(format!("link-arg=-Wl,-soname,{}", NAMES[1]))

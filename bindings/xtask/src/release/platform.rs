@@ -35,8 +35,11 @@ struct Cross {
 
 const X86_64: &[Processor] = &[
     Processor { name: Some("x86-64"), instructions: "SSE2" },
-    Processor { name: Some("x86-64-v3"), instructions: "AVX2" },
+    Processor { name: Some(OF_TESTS), instructions: "AVX2" },
 ];
+
+/// The processor of `.cargo/config.toml`.
+const OF_TESTS: &str = "x86-64-v3";
 
 const DEFAULT: &[Processor] = &[Processor { name: None, instructions: "" }];
 
@@ -140,8 +143,29 @@ impl Platform {
         }
     }
 
+    /// Whether a release that is only tried takes what is built for a processor as the tests build it, with the settings of
+    /// `.cargo/config.toml` and in their folder: nothing that they have built is built again.
+    fn is_built_as_for_tests(&self, release: &Release, processor: &Processor) -> bool {
+        release.quick && self.is_here() && processor.name == Some(OF_TESTS)
+    }
+
+    /// The argument for cargo and maturin, and the name of the folder of what they build.
+    pub(super) fn profile(
+        &self,
+        release: &Release,
+        processor: &Processor,
+    ) -> (&'static [&'static str], &'static str) {
+        match self.is_built_as_for_tests(release, processor) {
+            true => (&[], "debug"),
+            false => (&["--release"], "release"),
+        }
+    }
+
     /// The folder in which everything is built for a processor: program, library and wheel share what they depend on.
     pub(super) fn folder(&self, release: &Release, processor: &Processor) -> PathBuf {
+        if self.is_built_as_for_tests(release, processor) {
+            return release.target.clone();
+        }
         release.target.join(format!("for-{}", processor.name.unwrap_or(&self.triple)))
     }
 
@@ -156,9 +180,10 @@ impl Platform {
         cargo.current_dir(&release.root);
         self.settings(&mut cargo, release, processor)?;
         cargo.env("CARGO_TARGET_DIR", &folder);
+        let (_, name) = self.profile(release, processor);
         let built = match self.cross {
-            Some(_) => folder.join(&self.triple).join("release"),
-            None => folder.join("release"),
+            Some(_) => folder.join(&self.triple).join(name),
+            None => folder.join(name),
         };
         Ok((cargo, built))
     }
@@ -170,6 +195,9 @@ impl Platform {
         release: &Release,
         processor: &Processor,
     ) -> Result<(), String> {
+        if self.is_built_as_for_tests(release, processor) {
+            return Ok(());
+        }
         // Symbols are needed only for profiling and for reading a crash. Where they can be separated afterwards (the program has them in an
         // archive), what program, library and wheel depend on is built with the same settings, and so once.
         let strip = if self.objcopy().is_some() { "none" } else { "symbols" };

@@ -85,7 +85,8 @@ fn separated(platform: &Platform, program: PathBuf, name: &str) -> Result<(PathB
 /// Builds the program for a processor.
 fn program(release: &Release, platform: &Platform, processor: &Processor) -> Result<PathBuf, String> {
     let (mut cargo, built) = platform.cargo(release, processor)?;
-    cargo.args(["build", "--release", "--quiet", "--locked", "--package", "labspec-cli"]);
+    cargo.args(["build", "--quiet", "--locked", "--package", "labspec-cli"]);
+    cargo.args(platform.profile(release, processor).0);
     cargo.args(Platform::sizes(release));
     match cargo.status().map_err(|e| format!("cannot run cargo: {e}"))?.success() {
         true => Ok(built.join(PROGRAM)),

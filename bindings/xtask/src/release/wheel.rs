@@ -89,7 +89,8 @@ fn build(
     let out = release.target.join(format!("wheels-for-{name}"));
     emptied(&out)?;
     let mut maturin = Command::new(tools.join("bin/maturin"));
-    maturin.args(["build", "--release", "--quiet", "--locked", "--out"]).arg(&out);
+    maturin.args(["build", "--quiet", "--locked", "--out"]).arg(&out);
+    maturin.args(platform.profile(release, processor).0);
     maturin.args(Platform::sizes(release));
     if !platform.without_symbols().is_empty() {
         maturin.arg("--strip");
