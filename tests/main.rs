@@ -94,6 +94,7 @@ mod scenes;
 mod schema;
 mod search_brackets;
 mod settings;
+mod shared_builds;
 mod site;
 mod sleep;
 mod snapshots_of_labs;
