@@ -161,7 +161,8 @@ impl Platform {
         }
     }
 
-    /// The folder in which everything is built for a processor: program, library and wheel share what they depend on.
+    /// The folder in which everything is built for a processor: program, library and wheel share packages of
+    /// others.
     pub(super) fn folder(&self, release: &Release, processor: &Processor) -> PathBuf {
         if self.is_built_as_for_tests(release, processor) {
             return release.target.clone();
@@ -199,7 +200,7 @@ impl Platform {
             return Ok(());
         }
         // Symbols are needed only for profiling and for reading a crash. Where they can be separated afterwards (the program has them in an
-        // archive), what program, library and wheel depend on is built with the same settings, and so once.
+        // archive), packages of others on which program, library and wheel depend are built with the same settings, and so once.
         let strip = if self.objcopy().is_some() { "none" } else { "symbols" };
         command.env("CARGO_PROFILE_RELEASE_STRIP", strip);
         if release.quick {
