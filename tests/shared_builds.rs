@@ -5,9 +5,10 @@
 use crate::support::workspace;
 use std::collections::BTreeSet;
 
-/// `cargo test` builds no crate again that `cargo run -p labspec-cli` has built: both ask for the same features of each crate.
+/// `cargo test` builds no crate again that `cargo run -p labspec-cli` has built, and the Python package contains what both have built: all
+/// ask for the same features of each crate.
 #[test]
-fn the_program_and_the_tests_share_their_crates() {
+fn the_program_the_tests_and_the_python_package_share_their_crates() {
     let features = |arguments: &[&str]| -> BTreeSet<String> {
         let mut cargo = std::process::Command::new(env!("CARGO"));
         cargo.args([
@@ -25,14 +26,20 @@ fn the_program_and_the_tests_share_their_crates() {
         String::from_utf8(out.stdout).unwrap().lines().map(str::to_owned).collect()
     };
     let program = features(&["-p", "labspec-cli", "-e", "normal"]);
-    let tests = features(&["--workspace", "-e", "normal,build,dev"]);
+    let tests = features(&["-e", "normal,build,dev"]);
+    let python = features(&["-p", "labspec-python", "-e", "normal,build"]);
     assert!(program.len() > 100, "{program:?}");
+    assert!(python.is_superset(&program), "{python:?}");
     assert_eq!(program.difference(&tests).collect::<Vec<_>>(), Vec::<&String>::new());
+    // What only the package needs.
+    let own = ["labspec-python ", "portable-atomic ", "pyo3", "target-lexicon "];
+    let is_shared = |package: &&String| !own.iter().any(|name| package.starts_with(name));
+    assert_eq!(python.difference(&tests).filter(is_shared).collect::<Vec<_>>(), Vec::<&String>::new());
 }
 
-/// Packages of others that the tests have built are not built again for the C library and for the Python package because of their version.
+/// Packages of others that the tests have built are not built again for the C library because of their version.
 #[test]
-fn the_bindings_have_the_versions_of_the_workspace() {
+fn the_c_library_has_the_versions_of_the_workspace() {
     let packages = |folder: &str| -> BTreeSet<(String, String)> {
         let text = std::fs::read_to_string(workspace().join(folder).join("Cargo.lock")).unwrap();
         let value = |line: Option<&str>, key: &str| {
@@ -52,19 +59,13 @@ fn the_bindings_have_the_versions_of_the_workspace() {
     };
     let workspace = packages("");
     assert!(workspace.len() > 100, "{workspace:?}");
-    for folder in ["bindings/c", "bindings/python"] {
-        let has_other = |package: &&(String, String)| {
-            let is_compatible = |(name, version): &(String, String)| {
-                *name == package.0 && compatible(version) == compatible(&package.1)
-            };
-            !workspace.contains(*package) && workspace.iter().any(is_compatible)
+    let has_other = |package: &&(String, String)| {
+        let is_compatible = |(name, version): &(String, String)| {
+            *name == package.0 && compatible(version) == compatible(&package.1)
         };
-        let all = packages(folder);
-        assert!(all.len() > 50, "{all:?}");
-        assert_eq!(
-            all.iter().filter(has_other).collect::<Vec<_>>(),
-            Vec::<&(String, String)>::new(),
-            "{folder}"
-        );
-    }
+        !workspace.contains(*package) && workspace.iter().any(is_compatible)
+    };
+    let library = packages("bindings/c");
+    assert!(library.len() > 50, "{library:?}");
+    assert_eq!(library.iter().filter(has_other).collect::<Vec<_>>(), Vec::<&(String, String)>::new());
 }

@@ -5,7 +5,7 @@
 # With the argument `packages`, it only installs them.
 set -euo pipefail
 cd "$(dirname "$0")"
-target="${CARGO_TARGET_DIR:-$PWD/target}"
+target="${CARGO_TARGET_DIR:-$PWD/../../target}"
 env="$target/python"
 [ -x "$env/bin/python" ] || python3 -m venv "$env"
 install() { "$env/bin/pip" install --quiet --disable-pip-version-check "$@"; }
@@ -15,10 +15,8 @@ for package in "mujoco==3.14.0" "pyarrow==26.0.1" "scipy==1.17.1" "joblib==1.6.0
 done
 if [ "${1:-}" = packages ]; then exit 0; fi
 
-cargo fmt --check
-cargo clippy --locked --quiet -- -D warnings
 rm -rf "$target/wheels"
-CARGO_TARGET_DIR="$target" "$env/bin/maturin" build --quiet --locked --interpreter "$env/bin/python" --out "$target/wheels"
+"$env/bin/maturin" build --quiet --locked --interpreter "$env/bin/python" --out "$target/wheels"
 install --force-reinstall --no-deps "$target"/wheels/labspec-*.whl
 
 # Not from the sources: the package that is installed.

@@ -1,9 +1,9 @@
 //! Random and damaged input of every kind: no panic, no hang, bounded memory, and the same result twice. A test run has a fixed
 //! number of cases with a fixed seed. This command runs each kind for an hour with other seeds:
 //!
-//!     LABSPEC_FUZZ_SECONDS=3600 LABSPEC_SEED=2 cargo test --workspace -- fuzz --nocapture
+//!     LABSPEC_FUZZ_SECONDS=3600 LABSPEC_SEED=2 cargo test -- fuzz --nocapture
 //!
-//! A failure reports the number of its case. `LABSPEC_FUZZ_CASE=4294967296 cargo test --workspace -- fuzz::lessons --nocapture`
+//! A failure reports the number of its case. `LABSPEC_FUZZ_CASE=4294967296 cargo test -- fuzz::lessons --nocapture`
 //! runs only this case and writes its input to `target/tmp`. The expressions are in `crates/expr/src/tests/language.rs`.
 
 #![allow(clippy::unwrap_used, clippy::panic)]

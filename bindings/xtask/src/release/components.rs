@@ -77,8 +77,8 @@ fn list(release: &Release, tool: &Path, name: &str, package: &str) -> Result<Pat
     output_of(&mut command)?;
     let made = folder.join(format!("{written}.json"));
     let text = fs::read_to_string(&made).map_err(|e| failed(&made, &e))?;
-    for near in folder.parent().into_iter().chain([folder.as_path()]) {
-        remove(near, &format!("{written}.json"))?;
+    for members in ["crates", "bindings", package] {
+        remove(&release.root.join(members), &format!("{written}.json"))?;
     }
     // The tool names crates of the repository by their paths on this machine.
     let text = text.replace(&format!("file://{}/", release.root.display()), "file:///labspec/");

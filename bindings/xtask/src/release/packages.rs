@@ -15,7 +15,7 @@ pub(super) fn crates(release: &Release) -> Result<Vec<PathBuf>, String> {
     emptied(&packed)?;
     let cargo = |arguments: &[&str]| {
         let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-        cargo.args(arguments).args(["--workspace", "--quiet", "--locked", "--allow-dirty"]);
+        cargo.args(arguments).args(["--quiet", "--locked", "--allow-dirty"]);
         cargo.current_dir(&release.root).env("CARGO_TARGET_DIR", &target);
         match cargo.status().map_err(|e| format!("cannot run cargo: {e}"))?.success() {
             true => Ok(()),
