@@ -36,6 +36,8 @@ pub struct BoundVerify<'a> {
     pub(super) stage: &'a RunCache<'a>,
     /// Each lab in its initial state, for expressions over measures (which read nothing of it) and for imagined runs.
     idle: RefCell<BTreeMap<usize, Session<'a>>>,
+    /// For each run, the first run that is the same simulation, computed on first use.
+    pub(super) same_runs: OnceCell<Vec<usize>>,
     /// The units of the measures, computed on first use.
     pub(super) units: OnceCell<Option<MeasureUnits>>,
     /// The positions of all numbers, and the kind of each.
@@ -82,6 +84,7 @@ impl<'a> BoundVerify<'a> {
             verify,
             stage,
             idle: RefCell::default(),
+            same_runs: OnceCell::new(),
             units: OnceCell::new(),
             layout: NumberLayout::default(),
             simulated_ctx: BTreeSet::new(),

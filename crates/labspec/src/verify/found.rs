@@ -80,6 +80,17 @@ struct Evaluated {
     traced: TracedValue,
 }
 
+/// The inputs with the repeated numbers in their places.
+fn with_repeated<'i>(inputs: &'i ClaimInputs, repeated: &[(usize, usize)]) -> Cow<'i, ClaimInputs> {
+    let mut inputs = Cow::Borrowed(inputs);
+    for (place, original) in repeated {
+        if let Some(x) = inputs.at(*original) {
+            inputs.to_mut().set_value(*place, x);
+        }
+    }
+    inputs
+}
+
 impl BoundVerify<'_> {
     /// The value of an expression over the outcome. Errors are added to `findings`.
     pub(super) fn find(
@@ -200,6 +211,12 @@ impl BoundVerify<'_> {
         slots.any(is_grid).then_some(Cause::SeveralAxes)
     }
 
+    /// Whether an expression reads the same number of two runs that are the same simulation.
+    pub(super) fn compares_same_runs(&self, found: &MeasuredValue) -> bool {
+        let evaluated = found.trace.as_ref();
+        evaluated.is_some_and(|e| !self.repeated_numbers(&e.claim, &e.inputs).is_empty())
+    }
+
     /// Whether a claim could have a different outcome if the runs gave other values. `says` converts a value to the
     /// outcome; if `None`, the outcome is the truth of a condition, or a number.
     pub(super) fn could_differ(&self, found: &MeasuredValue, says: Option<&dyn Fn(&Value) -> bool>) -> bool {
@@ -211,7 +228,13 @@ impl BoundVerify<'_> {
         if places.is_empty() {
             return true;
         }
+        // A number of a run that is the same simulation as another one is the number of that run.
+        let repeated = self.repeated_numbers(claim, inputs);
+        let is_repeated = |place: usize| repeated.iter().any(|(other, _)| *other == place);
+        let (places, kinds): (Vec<usize>, Vec<ValueKind>) =
+            places.into_iter().zip(kinds).filter(|(place, _)| !is_repeated(*place)).unzip();
         let outlook = |inputs: &ClaimInputs| {
+            let inputs = &with_repeated(inputs, &repeated);
             let traced = claim.evaluate(self, inputs, None)?.ok().filter(|t| t.lost.is_none())?;
             // NaN does not count as a different number.
             if matches!(traced.value, Value::Number(x) if x.is_nan()) {

@@ -26,6 +26,10 @@ pub(super) fn grounded_value(
     // A value that is not finite gets its own finding.
     let some = !matches!(found.value, Value::Number(x) if !x.is_finite());
     if some && (found.unread || !bound.could_differ(&found, None)) {
+        // The finding about the runs says why.
+        if bound.compares_same_runs(&found) && findings.iter().any(|f| f.code == rules::IDENTICAL_RUNS.code) {
+            return Err(format!("`{}` compares a simulation with itself", shorten(text.value.trim())));
+        }
         return Err(report_constant_claim(text, findings));
     }
     Ok(found)

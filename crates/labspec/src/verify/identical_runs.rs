@@ -18,8 +18,14 @@ pub(super) fn check_identical_runs(
     findings: &mut Vec<Finding>,
 ) {
     let mut earlier_runs: BTreeMap<String, (&str, String)> = BTreeMap::new();
-    for (run, scene) in bound.runs_with_scenes().filter(|(run, _)| run.swept.is_none()) {
+    for (index, (run, scene)) in
+        bound.runs_with_scenes().enumerate().filter(|(_, (run, _))| run.swept.is_none())
+    {
         let Some(spec) = run.spec else { continue };
+        if let Some(finding) = same_start(bound, outcome, index) {
+            findings.push(finding);
+            continue;
+        }
         let length = length_key(run);
         let (earlier, other_length) =
             earlier_runs.entry(settings_key(scene, run)).or_insert((run.name, length.clone()));
@@ -46,6 +52,31 @@ pub(super) fn check_identical_runs(
                 .help("write the setting in which they differ, or use one run"),
         );
     }
+}
+
+/// A run whose settings are written differently from those of an earlier one, and that is the same simulation: its settings have values that
+/// the lab has anyway.
+fn same_start(bound: &BoundVerify<'_>, outcome: &MeasuredRuns, index: usize) -> Option<Finding> {
+    let measured = outcome.runs.get(index)?;
+    let earlier = outcome.runs.get(..index)?;
+    if !earlier.iter().any(|run| run.swept.is_none() && measure_the_same(run, measured)) {
+        return None;
+    }
+    let first = *bound.same_runs().get(index).filter(|first| **first != index)?;
+    let ((run, scene), (other, other_scene)) =
+        (bound.runs_with_scenes().nth(index)?, bound.runs_with_scenes().nth(first)?);
+    if settings_key(scene, run) == settings_key(other_scene, other)
+        || !measure_the_same(outcome.runs.get(first)?, measured)
+    {
+        return None;
+    }
+    let [a, b] = [named(other.name), named(run.name)];
+    let message = format!("the runs {a} and {b} are the same simulation");
+    Some(
+        Finding::new(rules::IDENTICAL_RUNS, run.spec?.name.span(), message)
+            .why("their settings are written differently, but they start with the same model in the same state, so every comparison between them says that nothing changes")
+            .help("write the setting in which they differ: another value, or the field that the simulation reads"),
+    )
 }
 
 /// Whether all measures of two runs are the same to the last bit. A program that draws numbers or counts its calls may give

@@ -11,6 +11,7 @@
 //! | an expression over measures, compiled once | `claim` |
 //! | its value, and the evidence for it | `found` |
 //! | whether a claim could have a different outcome | `evidence` |
+//! | runs that are the same simulation | `same_simulation`, `identical_runs` |
 //! | whether a condition holds, and by which margin | `condition` |
 //! | the answer of a question | `answer` |
 //! | numbers in the texts of options | `option_numbers`, `stated_numbers` |
@@ -69,6 +70,7 @@ mod reads;
 mod run_cache;
 mod run_result;
 mod runner;
+mod same_simulation;
 mod sample;
 mod says;
 mod search;

@@ -275,6 +275,11 @@ fn set(
 
 /// The model of a run at its start, after its controls and its setup. `None` for a run that cannot be started.
 pub(super) fn started_models(bound: &BoundScene<'_>, run: &BoundRun<'_>) -> Option<Model> {
+    Some(started_session(bound, run)?.world.model)
+}
+
+/// A run at its start, after its controls and its setup. `None` for a run that cannot be started.
+pub(super) fn started_session<'r>(bound: &'r BoundScene<'_>, run: &BoundRun<'_>) -> Option<Session<'r>> {
     let scene = &bound.scene;
     let start = Start { budget: Budget::TRIAL, ..Start::of_lab(&scene.lab) };
     let mut session = Session::start(scene.programs.clone(), &scene.model, start);
@@ -282,7 +287,7 @@ pub(super) fn started_models(bound: &BoundScene<'_>, run: &BoundRun<'_>) -> Opti
     if let Some(setup) = &run.setup {
         session.run_statements(&setup.program, &setup.text);
     }
-    Some(session.world.model)
+    Some(session)
 }
 
 /// The fields that the programs of the lab and of the run read and write.
