@@ -103,11 +103,14 @@ fn comparisons_with_numbers(e: &Expr, found: &mut Vec<(String, f64)>) {
     }
 }
 
-/// `abs(x - c) < d` compares x with c.
+/// `abs(x - c) < d` compares x with c, and `abs(a / b - 1) < d` a relative difference with d.
 fn push_comparison(term: &Expr, number: f64, found: &mut Vec<(String, f64)>) {
     let inner = super::option_numbers::magnitude(term);
+    let is_quotient = |e: &Expr| matches!(e.kind, ExprKind::Binary { op: BinaryOp::Divide, .. });
     match inner.map(|inner| &inner.kind) {
-        Some(ExprKind::Binary { op: BinaryOp::Subtract, left, right }) => {
+        Some(ExprKind::Binary { op: BinaryOp::Subtract, left, right })
+            if !(is_quotient(left) && constant(right) == Some(1.0)) =>
+        {
             match (constant(left), constant(right)) {
                 (None, Some(centre)) => found.push((print(left), centre)),
                 (Some(centre), None) => found.push((print(right), centre)),
@@ -124,7 +127,7 @@ mod tests {
     fn errors(text: &str, condition: &str) -> Vec<String> {
         let xml = "<mujoco><worldbody><body><joint name='j' axis='0 1 0'/><geom size='.05' pos='0 0 -.5'/></body></worldbody></mujoco>";
         let lab = serde_json::json!({"stopAt": 4, "xml": xml, "setup": "data.qpos[0] = 0.5"});
-        let measure = serde_json::json!({"q": "max(data.qpos[0])", "T": "period(data.qpos[0])", "e": "max(data.qpos[0]) / initial(data.qpos[0])"});
+        let measure = serde_json::json!({"q": "max(data.qpos[0])", "T": "period(data.qpos[0])", "e": "max(data.qpos[0]) / initial(data.qpos[0])", "a": "initial(data.qpos[0])"});
         let quiz = serde_json::json!({"id": "q", "questions": [{"q": text, "kind": "truefalse", "answer": true,
             "verify": {"lab": lab, "measure": measure, "options": [condition]}}]});
         let report = crate::Checker::new(|_: &str| None::<String>).check("q.json", &quiz.to_string());
@@ -138,6 +141,7 @@ mod tests {
             ("It never swings beyond 10°.", "q < 10"),
             ("Its period is less than 300 ms.", "T < 300"),
             ("It keeps more than 50 % of its amplitude.", "0.5 < e && e < 50"),
+            ("It changes by less than 1 %.", "abs(q / a - 1) < 1"),
         ] {
             let all = errors(text, condition);
             assert!(all.iter().any(|m| m.contains("but the condition compares")), "{text}: {all:?}");
@@ -148,6 +152,7 @@ mod tests {
             ("Its period is less than 3 s.", "T < 3"),
             ("It keeps more than 50 % of its amplitude.", "e > 0.5"),
             ("It keeps more than 50 % of its amplitude.", "100 * e > 50"),
+            ("It changes by less than 1 %.", "abs(q / a - 1) < 0.01"),
         ] {
             assert_eq!(errors(text, condition), [""; 0], "{text}: {condition}");
         }

@@ -88,7 +88,7 @@ pub(in crate::verify) const DECREASES: [&str; 8] =
 pub(in crate::verify) const INCREASES: [&str; 6] = ["gain", "grow", "rise", "increas", "climb", "add"];
 
 /// Words for quantities, with units of each.
-const QUANTITY_WORDS: [(&str, &[&str]); 34] = [
+const QUANTITY_WORDS: [(&str, &[&str]); 38] = [
     ("long", &["s", "m"]),
     ("longer", &["s", "m"]),
     ("short", &["s", "m"]),
@@ -123,7 +123,20 @@ const QUANTITY_WORDS: [(&str, &[&str]); 34] = [
     ("heavy", &["kg", "N"]),
     ("heavier", &["kg", "N"]),
     ("power", &["W"]),
+    ("gravity", &["m/s^2"]),
+    ("acceleration", &["m/s^2", "rad/s^2"]),
+    ("stiff", &["N/m", "N m/rad"]),
+    ("stiffness", &["N/m", "N m/rad"]),
 ];
+
+/// First words of a clause that states a setting: `with twice the gravity`, `if the stiffness is doubled`. The factor is at most this number
+/// of words behind them.
+const SETTING_WORDS: [&str; 11] =
+    ["if", "when", "whenever", "with", "at", "for", "from", "given", "under", "to", "suppose"];
+const SETTING_LENGTH: usize = 5;
+
+/// A negation is at most this number of words before a factor: `not quite twice`.
+const NEGATION_LENGTH: usize = 2;
 
 /// The number of words behind a factor that tell what it is a factor of.
 const NEAR_WORDS: usize = 3;
@@ -133,7 +146,21 @@ fn split_words(text: &str) -> impl Iterator<Item = &str> {
     text.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty())
 }
 
-/// The only ratio that an option states; `None` where it states several, a bound, or other numbers.
+/// Whether a factor behind this text is that of a setting, not of a result: `with twice the gravity`.
+fn is_setting(before: &str) -> bool {
+    let clause = before.rsplit(['.', ',', ';', ':', '?', '!']).next().unwrap_or("");
+    let words: Vec<&str> = split_words(clause).collect();
+    words.first().is_some_and(|word| SETTING_WORDS.contains(word)) && words.len() <= SETTING_LENGTH
+}
+
+/// Whether a factor behind this text is denied: `but not twice as long`.
+fn is_denied(before: &str) -> bool {
+    let clause = before.rsplit(['.', ',', ';', ':', '?', '!']).next().unwrap_or("");
+    let words: Vec<&str> = clause.split_whitespace().collect();
+    words.iter().rev().take(NEGATION_LENGTH + 1).any(|word| *word == "not" || word.ends_with("n't"))
+}
+
+/// The only ratio that an option states about a result; `None` where it states several, a bound, or other numbers.
 pub(in crate::verify) fn option_ratio(option: &str) -> Option<OptionRatio> {
     let folded = plain_text(option).to_lowercase();
     let chars: Vec<char> = folded.chars().take(2000).collect();
@@ -174,6 +201,9 @@ pub(in crate::verify) fn option_ratio(option: &str) -> Option<OptionRatio> {
             .into_iter()
             .any(|list| last_word(before, list, Languages::ALL).is_some());
     let behind = folded.get(place.end..)?;
+    if is_bound || is_setting(before) || is_denied(before) {
+        return None;
+    }
     let may_be = readings(x, share, before, behind);
     // Example: `it takes longer from twice the height` is about a factor of the height.
     let near: String = behind
@@ -184,9 +214,11 @@ pub(in crate::verify) fn option_ratio(option: &str) -> Option<OptionRatio> {
         .take(NEAR_WORDS)
         .collect::<Vec<_>>()
         .join(" ");
+    // `four times as stiff` is about no other quantity of the text.
+    let is_told = near.starts_with("as ");
     let near = named_quantities(&near);
-    let named = if near.is_empty() { named_quantities(&folded) } else { near };
-    (!is_bound).then_some(OptionRatio { text, may_be, named })
+    let named = if near.is_empty() && !is_told { named_quantities(&folded) } else { near };
+    Some(OptionRatio { text, may_be, named })
 }
 
 /// Whether a number behind this text is a factor: `larger by a factor of`.
@@ -311,6 +343,12 @@ mod tests {
             "nearly twice as long",
             "three balls",
             "it falls",
+            "with twice the gravity, it lands earlier",
+            "if the stiffness is doubled, the period becomes shorter",
+            "when gravity is doubled it falls faster",
+            "to halve the period, twice the stiffness is needed",
+            "longer, but not twice as long",
+            "it isn't quite three times as long",
         ] {
             assert_eq!(option_ratio(text), None, "{text}");
         }
@@ -324,6 +362,8 @@ mod tests {
         assert!(!names("half as long", &time) && names("half as long", &speed));
         assert!(!names("half", &time) && names("four times the height", &speed));
         assert!(names("it takes longer from twice the height", &time));
+        assert!(names("four times as stiff makes the period shorter", &time));
+        assert!(option_ratio("a wide swing is twice as dangerous as a short period").unwrap().named.is_empty());
         let height = option_ratio("four times the height").unwrap().of_another();
         assert!(height.contains(&2.0) && height.contains(&0.5) && !height.contains(&5.0));
     }
