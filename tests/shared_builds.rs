@@ -32,8 +32,8 @@ fn the_program_the_tests_and_the_python_package_share_their_crates() {
     assert!(python.is_superset(&program), "{python:?}");
     assert_eq!(program.difference(&tests).collect::<Vec<_>>(), Vec::<&String>::new());
     // What only the package needs.
-    let own = ["labspec-python ", "portable-atomic ", "pyo3", "target-lexicon "];
-    let is_shared = |package: &&String| !own.iter().any(|name| package.starts_with(name));
+    let of_python = ["labspec-python ", "portable-atomic ", "pyo3", "target-lexicon "];
+    let is_shared = |package: &&String| !of_python.iter().any(|name| package.starts_with(name));
     assert_eq!(python.difference(&tests).filter(is_shared).collect::<Vec<_>>(), Vec::<&String>::new());
 }
 

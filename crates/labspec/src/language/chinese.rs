@@ -17,6 +17,7 @@ pub(super) static CHINESE: Language = Language {
     parts: &[],
     of: &[],
     operators: &[],
+    never: &["从不", "从未", "始终"],
     between: &[("介于", "和"), ("介于", "与")],
     from: &[],
 };

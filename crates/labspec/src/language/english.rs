@@ -55,6 +55,13 @@ pub(super) static ENGLISH: Language = Language {
         "exceeding",
     ],
     upper_bounds: &[
+        "never exceeds",
+        "never exceed",
+        "does not exceed",
+        "do not exceed",
+        "doesn't exceed",
+        "must not exceed",
+        "without exceeding",
         "falls short of",
         "fall short of",
         "falling short of",
@@ -104,6 +111,7 @@ pub(super) static ENGLISH: Language = Language {
     ],
     of: &["of", "of the"],
     operators: &["times", "plus", "minus"],
+    never: &["never", "at no time", "at all times", "the whole time", "at every moment", "throughout"],
     between: &[("between", "and")],
     from: &[],
 };

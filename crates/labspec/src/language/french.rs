@@ -70,6 +70,7 @@ pub(super) static FRENCH: Language = Language {
     ],
     of: &["de", "de la", "de ces", "du", "des"],
     operators: &["fois", "plus", "moins"],
+    never: &["jamais", "tout le temps", "à tout moment"],
     between: &[("entre", "et")],
     from: &[("de", "à"), ("d'environ", "à")],
 };

@@ -63,6 +63,7 @@ pub(super) static GERMAN: Language = Language {
     ],
     of: &["von", "der", "des", "vom"],
     operators: &["mal", "plus", "minus", "durch"],
+    never: &["nie", "niemals", "zu keiner zeit", "die ganze zeit", "jederzeit"],
     between: &[("zwischen", "und")],
     from: &[("von", "bis"), ("vom", "bis")],
 };

@@ -52,6 +52,7 @@ pub(super) static ITALIAN: Language = Language {
     ],
     of: &["di", "dei", "del"],
     operators: &["più", "meno", "diviso"],
+    never: &["mai", "per tutto il tempo", "in ogni momento"],
     between: &[("tra", "e"), ("fra", "e"), ("tra", "ed"), ("fra", "ed")],
     from: &[("da", "a"), ("dai", "ai")],
 };

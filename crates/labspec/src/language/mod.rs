@@ -42,6 +42,8 @@ pub struct Language {
     pub of: &'static [&'static str],
     /// Between two numbers, they compute with them: `times`.
     pub operators: &'static [&'static str],
+    /// They state something about every moment: `never`.
+    pub never: &'static [&'static str],
     /// Before the first number of a range, and between its two numbers: `between 3 and 5`.
     pub between: &'static [(&'static str, &'static str)],
     /// The same, where the words may also state a change from one number to the other: `von 3 bis 5`.
@@ -145,6 +147,7 @@ mod tests {
                 language.parts,
                 language.of,
                 language.operators,
+                language.never,
             ];
             assert!(computing.concat().iter().all(|word| *word == word.to_lowercase()), "{}", language.name);
         }

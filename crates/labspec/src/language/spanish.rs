@@ -59,6 +59,7 @@ pub(super) static SPANISH: Language = Language {
     ],
     of: &["de", "de los", "del"],
     operators: &["por", "más", "menos"],
+    never: &["nunca", "jamás", "todo el tiempo", "en todo momento"],
     between: &[("entre", "y"), ("entre", "e")],
     from: &[("de", "a"), ("desde", "hasta")],
 };

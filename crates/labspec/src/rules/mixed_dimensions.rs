@@ -1,6 +1,7 @@
 use crate::bind::Bound;
+use crate::source::Text;
 use labspec_bind::units::written;
-use labspec_expr::TextDimensions;
+use labspec_expr::{DimensionClash, TextDimensions};
 use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// An expression adds or compares quantities of different dimensions.
@@ -21,12 +22,14 @@ pub const MIXED_DIMENSIONS: &Rule = &Rule {
 
 /// Reports sums and comparisons of incompatible quantities.
 pub(crate) fn clashes(bound: &Bound, measured: &TextDimensions, severity: Severity) -> Vec<Finding> {
-    let one = |clash: &labspec_expr::DimensionClash| {
-        let message = format!("{} and {} are added or compared", written(&clash.left), written(&clash.right));
-        let mut found = Finding::new(MIXED_DIMENSIONS, bound.text.span_of(clash.span.into()), message)
-            .help("check the index and the field: one of the two may be a different quantity than intended");
-        found.severity = severity;
-        found
-    };
-    measured.clashes.iter().map(one).collect()
+    measured.clashes.iter().map(|clash| clash_finding(&bound.text, clash, severity)).collect()
+}
+
+/// The finding about one of them.
+pub(crate) fn clash_finding(text: &Text, clash: &DimensionClash, severity: Severity) -> Finding {
+    let message = format!("{} and {} are added or compared", written(&clash.left), written(&clash.right));
+    let mut found = Finding::new(MIXED_DIMENSIONS, text.span_of(clash.span.into()), message)
+        .help("check the index and the field: one of the two may be a different quantity than intended");
+    found.severity = severity;
+    found
 }

@@ -79,6 +79,10 @@ pub(super) struct RunningAggregate<'a> {
     pub(super) gaps: MissingNumbers,
     /// Whether the previous sample had no number.
     lacked: bool,
+    /// Whether a sample was processed.
+    is_started: bool,
+    /// Whether the event happens at the first sample.
+    pub(super) at_start: bool,
 }
 
 /// Samples without a number.
@@ -105,6 +109,8 @@ impl<'a> RunningAggregate<'a> {
                 trail: CurveTrail::START,
                 gaps: MissingNumbers::default(),
                 lacked: false,
+                is_started: false,
+                at_start: false,
             })
         };
         program.aggregates().iter().filter_map(start).collect()
@@ -173,6 +179,9 @@ impl<'a> RunningAggregate<'a> {
         if self.take(time, &mut args) {
             self.gaps = MissingNumbers::default();
         }
+        let is_event =
+            matches!(self.kind, AggregateKind::First | AggregateKind::At | AggregateKind::Crossing);
+        self.at_start |= !std::mem::replace(&mut self.is_started, true) && is_event && self.done;
         if args.lack && !first {
             if self.gaps.count == 0 {
                 self.gaps.first = time;

@@ -224,6 +224,11 @@ impl<'a> BoundVerify<'a> {
         measures.map(|(name, measure)| (name.as_ref(), measure.text.as_str()))
     }
 
+    /// The text of a measure by its name.
+    pub(super) fn text_of_measure(&self, name: &str) -> Option<String> {
+        self.measure_texts().find(|(other, _)| *other == name).map(|(_, text)| text.to_string())
+    }
+
     /// Calls `work` with the first lab in its initial state, for expressions over measures: they read nothing of its data.
     pub(super) fn idle<T>(&self, work: impl FnOnce(&mut Session<'a>) -> T) -> Option<T> {
         self.idle_in(0, work)
@@ -375,9 +380,11 @@ impl<'a> BoundVerify<'a> {
             let made = self.execute_run(run, numerics, &measures, findings)?;
             let names = scene.measures.iter().map(|(name, _)| name.to_string());
             let mut without_value = Vec::new();
+            let mut at_start = Vec::new();
             let mut measures = Vec::new();
-            for (name, Sampled { value, no_value, .. }) in names.zip(made.values) {
+            for (name, Sampled { value, no_value, at_start: event, .. }) in names.zip(made.values) {
                 without_value.extend(no_value.map(|no_value| (name.clone(), no_value)));
+                at_start.extend(event.map(|event| (name.clone(), event)));
                 measures.push((name, value));
             }
             runs.push(MeasuredRun {
@@ -385,6 +392,7 @@ impl<'a> BoundVerify<'a> {
                 swept: run.swept.clone(),
                 measures,
                 without_value,
+                at_start,
                 end: made.end,
                 warnings: made.warnings,
                 broke: made.broke,

@@ -1,6 +1,7 @@
 //! Checks the claims of one `verify` object: executes its runs and checks its answer, quotes and closed forms.
 
 use super::bound::BoundVerify;
+use super::event_at_start::check_events;
 use super::identical_runs::check_identical_runs;
 use super::judgement::{Judgement, Measured, RunReport, not_executable};
 use super::options::is_undecided;
@@ -28,6 +29,8 @@ pub fn check_verify(
     match run_all_numerics(bound, verify, findings) {
         Some(outcomes) => {
             check_identical_runs(bound, &outcomes.nominal, findings);
+            check_events(bound, &outcomes.nominal, verify, findings);
+            units::check_dimensions(bound, verify, findings);
             judge(bound, &outcomes, verify, question, rendered, findings)
         }
         None => not_executable(verify, question, "a run cannot be made"),

@@ -54,8 +54,8 @@ pub(super) fn check_identical_runs(
     }
 }
 
-/// A run whose settings are written differently from those of an earlier one, and that is the same simulation: its settings have values that
-/// the lab has anyway.
+/// A run whose settings are written differently from those of an earlier one with which a claim compares it, and that is the same
+/// simulation: its settings have values that the lab has anyway.
 fn same_start(bound: &BoundVerify<'_>, outcome: &MeasuredRuns, index: usize) -> Option<Finding> {
     let measured = outcome.runs.get(index)?;
     let earlier = outcome.runs.get(..index)?;
@@ -70,6 +70,7 @@ fn same_start(bound: &BoundVerify<'_>, outcome: &MeasuredRuns, index: usize) -> 
     {
         return None;
     }
+    compared_measure(bound.verify, outcome.runs.get(first)?, measured)?;
     let [a, b] = [named(other.name), named(run.name)];
     let message = format!("the runs {a} and {b} are the same simulation");
     Some(

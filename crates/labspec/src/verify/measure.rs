@@ -88,6 +88,8 @@ pub(crate) struct Sampled {
     pub(crate) parts: Vec<f64>,
     /// Why it has no value, if that is known.
     pub(crate) no_value: Option<NoValue>,
+    /// The aggregate whose event happens at the first sample, as written.
+    pub(crate) at_start: Option<String>,
 }
 
 /// The aggregates of one measure.
@@ -155,6 +157,8 @@ impl<'a> Measure<'a> {
             Some(missing) => Some(NoValue::Samples(missing)),
             None => value.is_nan().then(event).flatten(),
         };
-        Sampled { value, parts: self.parts(), no_value }
+        let mut at_start = self.running.iter().zip(self.program.aggregates()).filter(|(r, _)| r.at_start);
+        let at_start = at_start.next().map(|(_, aggregate)| part(aggregate.span.start, aggregate.span.end));
+        Sampled { value, parts: self.parts(), no_value, at_start }
     }
 }

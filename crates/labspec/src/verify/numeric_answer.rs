@@ -8,6 +8,7 @@ use super::found::MeasuredValue;
 use super::grounded::{decided_value, report_constant_claim, report_undecided};
 use super::outcome::MeasuredRuns;
 use super::outcomes::Outcomes;
+use super::ratio_of_change::check_asked_change;
 use super::survival::{fragile_answer, verdict_by, withstand_numerics};
 use super::verdict::{Answer, Verdict, Weight};
 use super::{quote, units};
@@ -46,6 +47,14 @@ pub(super) fn check_number(
     let measured = asked.and_then(|_| units::of_claim(bound, &outcomes.nominal, text));
     let gives = measured.as_ref().map(written);
     let is_fraction = measured.as_ref().is_some_and(|d| d.is_number() && d.factor == 1.0);
+    if asked
+        .or(quote::asked_unit(question.q.as_str()).as_deref())
+        .is_some_and(|u| quote::percentage(u).is_some())
+        && let Some(reason) =
+            check_asked_change(&question.q, text, &|name| bound.text_of_measure(name), findings)
+    {
+        return Answer::failed(reason);
+    }
     let unit = quote::answer_unit(asked, measured);
     let mut key = NumericKey { answer, tol, span: keyed.span.clone(), text, factor: unit.factor(), gives };
     key.choose_percent(asked, is_fraction, value.value.to_number());

@@ -8,6 +8,8 @@ use super::format::shorten;
 use super::found::MeasuredValue;
 use super::grounded::{decided_value, grounded_value};
 use super::loose_tolerance::check_tolerance;
+use super::one_sample::check_one_sample;
+use super::one_sided::check_one_sided;
 use super::option_numbers::check_option_numbers;
 use super::outcome::MeasuredRuns;
 use super::outcomes::Outcomes;
@@ -123,7 +125,11 @@ impl OptionJudgement<'_> {
         let wrong = check_condition_units(bound, nominal, &stated, findings)
             .or_else(|| check_stated_numbers(bound, nominal, question, &stated, findings));
         if wrong.is_none() {
-            stated.iter().for_each(|(_, condition)| check_tolerance(bound, nominal, condition, findings));
+            for both in &stated {
+                check_tolerance(bound, nominal, *both, findings);
+                check_one_sided(bound, nominal, *both, findings);
+                check_one_sample(bound, *both, findings);
+            }
         }
         wrong
     }

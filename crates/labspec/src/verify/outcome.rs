@@ -22,6 +22,8 @@ pub(super) struct MeasuredRun {
     pub(super) measures: Vec<(String, f64)>,
     /// Why measures have no value, by name.
     pub(super) without_value: Vec<(String, NoValue)>,
+    /// Measures with an event that happens at the first sample: the name, and the aggregate as written.
+    pub(super) at_start: Vec<(String, String)>,
     /// The time of its end, s.
     pub(super) end: f64,
     /// Number of warnings of the engine.

@@ -45,8 +45,9 @@ fn check_line(
             Err(reason) => return vec![Quote::unclear(&quoted.quote, &reason)],
         }
     }
+    let text_of = |name: &str| checker.bound.text_of_measure(name);
     if let [expr] = exprs.as_slice()
-        && let Some(reason) = check_ratio_of_change(&quoted.quote, expr, findings)
+        && let Some(reason) = check_ratio_of_change(&quoted.quote, expr, &text_of, findings)
     {
         return vec![Quote::unclear(&quoted.quote, &reason)];
     }

@@ -58,7 +58,10 @@ pub(super) fn not_found(claim: &QuoteClaim<'_>, hidden: Option<Range<usize>>) ->
     .help("quote what the text now says, with its sign and its whole unit, or delete this line");
     match hidden {
         Some(place) => {
-            found.related(place, "it is here, in text that is not rendered, or as part of a longer number")
+            found.related(
+                place,
+                "it is here, in text that is not rendered, as part of a longer number, or behind words that change it (\"at least\", \"not the\")",
+            )
         }
         None => found,
     }
