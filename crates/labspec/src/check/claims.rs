@@ -5,6 +5,7 @@ use super::resolved_labs::{ResolvedLabs, resolve_labs};
 use super::{PreparedLab, claim_id, prepared_lab, setconst};
 use crate::bind::scene::Models;
 use crate::finding::Finding;
+use crate::json::read::named;
 use crate::ledger::State;
 use crate::rules;
 use crate::spec::{Lab, Lesson, Question, QuestionKind, Remark, Verify};
@@ -283,8 +284,15 @@ fn incomplete_lab(
         if scene.lab.unread_controls {
             return Some("a control of its lab cannot be read".to_string());
         }
+        if let Some(key) = scene.lab.unread_key {
+            return Some(format!("the `{key}` of its lab cannot be read"));
+        }
         prepared_lab::program_with_errors(&scene.lab, &scene.programs, pressed)
     };
+    let unread = verify.runs.iter().find_map(|run| Some((run, run.unread_key?)));
+    if let Some((run, key)) = unread {
+        return Some(format!("the `{key}` of its run {} cannot be read", named(run.name.as_str())));
+    }
     let of_runs = verify.runs.iter().zip(runs).find_map(|(run, scenes)| {
         let pressed: Vec<&str> = run.press.iter().map(|(label, _)| label.as_str()).collect();
         scenes.iter().find_map(|scene| reason(scene, &pressed))

@@ -39,13 +39,18 @@ const ENERGY: [&str; 7] =
 const MAX_LABELS: usize = 400;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Energy {
+pub(super) enum Energy {
     Kinetic,
     Potential,
 }
 
 impl Energy {
-    fn name(self) -> &'static str {
+    /// Whether a word of a label belongs to the name of an energy.
+    pub(super) fn is_word(word: &str) -> bool {
+        [&KINETIC[..], &POTENTIAL[..], &ENERGY[..]].iter().any(|list| list.contains(&word))
+    }
+
+    pub(super) fn name(self) -> &'static str {
         match self {
             Energy::Kinetic => "kinetic",
             Energy::Potential => "potential",
@@ -79,7 +84,7 @@ fn check_energy(label: &Text, bound: &Bound) -> Option<Finding> {
 }
 
 /// The energy that a label names. `None`: none, or both.
-fn named_energy(label: &Text) -> Option<Energy> {
+pub(super) fn named_energy(label: &Text) -> Option<Energy> {
     let words = super::label_names_another::words_of(label.as_str());
     let has = |list: &[&str]| words.iter().any(|word| list.contains(&word.as_str()));
     match (has(&KINETIC), has(&POTENTIAL)) {

@@ -56,6 +56,8 @@ pub struct Lab {
     pub controls: Vec<Control>,
     /// Whether a control could not be read; this is reported.
     pub unread_controls: bool,
+    /// A key that decides about its runs and could not be read; this is reported.
+    pub unread_key: Option<&'static str>,
     /// Plots.
     pub plots: Vec<Plot>,
     /// Readouts.
@@ -183,6 +185,7 @@ impl Lab {
             controller: None,
             controls: Vec::new(),
             unread_controls: false,
+            unread_key: None,
             plots: Vec::new(),
             readouts: Vec::new(),
             verify: None,
@@ -370,4 +373,6 @@ pub struct Run {
     pub sweep: Option<Sweep>,
     /// Whether it breaks, as the lesson says.
     pub expect: BreakExpectation,
+    /// A key that could not be read; this is reported.
+    pub unread_key: Option<&'static str>,
 }

@@ -56,6 +56,7 @@ fn read_keys(node: &Node, object: &'static Object, problems: &mut Vec<Problem>) 
         setup: f.text("setup"),
         controller: f.text("controller"),
         unread_controls: false,
+        unread_key: None,
         controls: f.list("controls").iter().filter_map(|n| control::read(n, f.problems)).collect(),
         plots: f.list("plots").iter().filter_map(|n| plot::read(n, f.problems)).collect(),
         readouts: f.list("readouts").iter().filter_map(|n| plot::readout(n, f.problems)).collect(),
@@ -67,11 +68,36 @@ fn read_keys(node: &Node, object: &'static Object, problems: &mut Vec<Problem>) 
     let comparison = (object.name == INTEGRATORS.name).then(|| read_comparison(f));
     let listed = f.list("controls").len();
     fields.finish();
-    let lab = Lab { unread_controls: lab.controls.len() < listed || no_list_of_controls(node), ..lab };
+    let unread_key = unread_key(
+        node,
+        &[
+            ("key", lab.key.is_none()),
+            ("stopAt", lab.stop_at.is_none()),
+            ("setup", lab.setup.is_none()),
+            ("controller", lab.controller.is_none()),
+        ],
+    );
+    let unread_controls = lab.controls.len() < listed || no_list_of_controls(node);
+    let lab = Lab { unread_controls, unread_key, ..lab };
     Some(match comparison {
         Some(comparison) => add_comparison(lab, comparison),
         None => lab,
     })
+}
+
+/// The first of these keys that an object has and that was not read.
+fn unread_key(node: &Node, keys: &[(&'static str, bool)]) -> Option<&'static str> {
+    keys.iter().find(|(key, is_missing)| *is_missing && node.get(key).is_some()).map(|(key, _)| *key)
+}
+
+/// The number of entries of an object or a list under a key.
+fn entries(node: &Node, key: &str) -> usize {
+    match node.get(key).map(|n| &n.json) {
+        Some(Json::Array(items)) => items.len(),
+        Some(Json::Object(members)) => members.len(),
+        Some(_) => usize::MAX,
+        None => 0,
+    }
 }
 
 /// Whether the list of controls itself could not be read.
@@ -288,7 +314,23 @@ fn read_run(member: &Member, problems: &mut Vec<Problem>) -> Option<Run> {
         stop: f.text("stop"),
         sweep: f.node("sweep").and_then(|n| read_sweep(n, f.problems)),
         expect: f.text("expect").map_or(BreakExpectation::None, |t| read_expectation(&t, f.problems)),
+        unread_key: None,
     };
     fields.finish();
-    Some(run)
+    let unread = unread_key(
+        &member.value,
+        &[
+            ("key", run.key.is_none()),
+            ("controller", run.controller.is_none()),
+            ("setup", run.setup.is_none()),
+            ("until", run.until.is_none()),
+            ("steps", run.steps.is_none()),
+            ("stop", run.stop.is_none()),
+            ("sweep", run.sweep.is_none()),
+            ("set", run.set.len() < entries(&member.value, "set")),
+            ("press", run.press.len() < entries(&member.value, "press")),
+            ("model", run.model.len() < entries(&member.value, "model")),
+        ],
+    );
+    Some(Run { unread_key: unread, ..run })
 }

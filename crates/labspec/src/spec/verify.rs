@@ -90,6 +90,7 @@ impl Run {
             stop: None,
             sweep: None,
             expect: BreakExpectation::None,
+            unread_key: None,
         }
     }
 

@@ -167,6 +167,7 @@ impl TraceRun {
             stop: None,
             sweep: None,
             expect: BreakExpectation::None,
+            unread_key: None,
         }
     }
 }

@@ -33,6 +33,7 @@ pub(super) fn check_observations(
     rules::too_many_digits::check_surplus_digits(&mut observed, findings);
     check_curves(&mut observed, findings);
     check_readouts(&observed, findings);
+    rules::energy_value::check_energies(&mut observed, findings);
     rules::shows_the_start::check_beginning(&observed, findings);
     rules::goes_on::check_repeats(&observed, findings);
     rules::below_zero::check_below_zero(&observed, findings);

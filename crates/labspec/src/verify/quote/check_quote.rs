@@ -249,7 +249,7 @@ impl<'q> QuoteComparison<'q> {
             return unclear(outcome, reason, finding, findings);
         }
         findings.push(messages::wrong(claim, &outcome, read));
-        let gives = messages::printed(read, *computed);
+        let gives = messages::measured(read, *computed);
         outcome.reason = format!("the text says {read}, but the simulation gives {gives}");
         outcome.state = QuoteState::Wrong;
         outcome

@@ -25,6 +25,14 @@ pub(super) fn printed(read: &Quoted, x: f64) -> String {
     }
 }
 
+/// A value that is not that of the quote, with enough digits to differ from a bound.
+pub(super) fn measured(read: &Quoted, x: f64) -> String {
+    match read.form {
+        NumberForm::Interval(..) => significant(x),
+        _ => printed(read, x),
+    }
+}
+
 /// The quote, shortened for a message.
 pub(super) fn shorten_quote(claim: &QuoteClaim<'_>) -> String {
     crate::json::read::shorten(if claim.part.is_empty() { claim.quote.as_str() } else { claim.part.trim() })
@@ -155,10 +163,7 @@ pub(super) fn uncertain_unit(
 }
 
 pub(super) fn wrong(claim: &QuoteClaim<'_>, outcome: &QuoteOutcome, read: &Quoted) -> Finding {
-    let right = match read.form {
-        NumberForm::Interval(..) => significant(outcome.computed),
-        _ => printed(read, outcome.computed),
-    };
+    let right = measured(read, outcome.computed);
     let within = match read.form {
         NumberForm::PlusMinus(..) | NumberForm::Range(..) => ", which is outside it",
         _ => "",
