@@ -1,5 +1,6 @@
 //! Checks quotes: numbers and words of the text, and cells of tables.
 
+use super::named_run::check_named_run;
 use super::quote_checker::{Quote, QuoteChecker, QuotedValue, check_number, check_words};
 use super::ratio_of_change::check_ratio_of_change;
 use super::{column, quote};
@@ -50,6 +51,9 @@ fn check_line(
         && let Some(reason) = check_ratio_of_change(&quoted.quote, expr, &text_of, findings)
     {
         return vec![Quote::unclear(&quoted.quote, &reason)];
+    }
+    if let [expr] = exprs.as_slice() {
+        check_named_run(checker.bound, &quoted.quote, expr, &places, findings);
     }
     let numbers = given.iter().filter(|(_, given)| !given.is_condition()).count();
     // With one expression, it belongs to the number that the quote states. With words and numbers, every number must be

@@ -3,6 +3,7 @@
 mod arithmetic;
 mod asked_unit;
 mod check_quote;
+mod clause;
 mod clause_unit;
 mod constant;
 mod context;

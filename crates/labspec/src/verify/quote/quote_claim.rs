@@ -77,4 +77,6 @@ pub(in crate::verify) struct QuotePlace {
     pub(in crate::verify) unit: Option<Unit>,
     /// The value of constant arithmetic before it and an equality sign.
     pub(in crate::verify) arithmetic: Option<f64>,
+    /// The clause around it, or the first cell of its row.
+    pub(in crate::verify) clause: String,
 }

@@ -1,6 +1,7 @@
 //! The rendered text of a lesson: prose, headings, cells, captions, printed output, and the displayed texts of labs and
 //! quizzes. Keys, code, listings, attributes and comments are not part of it.
 
+use super::clause::clause_of;
 use super::constant::value_before;
 use super::denial::is_denied;
 use super::markdown_cell::{is_head_of_units, unit_of_cell, unit_of_column};
@@ -62,7 +63,12 @@ impl RenderedText {
                 // A number in a cell has the unit of its column.
                 let of_column = || unit_of_column(file, span.start);
                 let unit = if has_number(quote) { Option::or_else(unit, of_column) } else { None };
-                QuotePlace { arithmetic: value_before(file, span.start), span, unit }
+                QuotePlace {
+                    arithmetic: value_before(file, span.start),
+                    clause: clause_of(file, &span),
+                    span,
+                    unit,
+                }
             };
             let mut places: Vec<_> =
                 found.chain(words.into_iter().map(|span| (span, None))).map(place).collect();
@@ -71,6 +77,7 @@ impl RenderedText {
                     span: span.clone(),
                     unit: None,
                     arithmetic: None,
+                    clause: String::new(),
                 }));
             }
             places.sort_by_key(|p| (p.span.start, p.span.end));

@@ -1,0 +1,131 @@
+//! Finds quotes of one run in a clause that names another run: "the small swing takes 1.65 s" beside `wide.T`.
+
+use super::bound::BoundVerify;
+use super::layout::Slot;
+use super::quote::QuotePlace;
+use crate::finding::Finding;
+use crate::json::read::named;
+use crate::rules;
+use crate::source::Text;
+use std::collections::BTreeSet;
+
+/// Words before the name of a run in a sentence: `the small swing`, `on earth`.
+const BEFORE_NAME: [&str; 27] = [
+    "the", "a", "an", "on", "with", "without", "for", "in", "at", "from", "der", "die", "das", "den", "dem",
+    "auf", "mit", "bei", "le", "la", "les", "sur", "avec", "el", "en", "il", "su",
+];
+/// Names that are usually other words of a sentence.
+const COMMON: [&str; 16] = [
+    "first", "second", "third", "one", "two", "three", "run", "start", "end", "rest", "fall", "drop", "time",
+    "other", "same", "last",
+];
+
+/// Reports a quote if every place of it is in a clause that names another run, and not the one that its expression reads.
+pub(super) fn check_named_run(
+    bound: &BoundVerify<'_>,
+    quote: &Text,
+    expr: &Text,
+    places: &[QuotePlace],
+    findings: &mut Vec<Finding>,
+) {
+    let Some(claim) = bound.claim(expr) else { return };
+    let slots = claim.reads.iter().filter_map(|place| bound.layout().slots.get(*place));
+    let runs: BTreeSet<usize> = slots
+        .filter_map(|slot| match slot {
+            Slot::Measure(run, _) | Slot::Warnings(run) | Slot::Swept(run, _) => Some(*run),
+            _ => None,
+        })
+        .collect();
+    let [run] = runs.iter().copied().collect::<Vec<_>>()[..] else { return };
+    let Some(name) = bound.runs.get(run).map(|run| run.name) else { return };
+    let others: BTreeSet<&str> =
+        bound.runs.iter().map(|run| run.name).filter(|other| *other != name).collect();
+    let named_in = |place: &QuotePlace| {
+        let is_own = names(&place.clause, name, false);
+        others.iter().copied().find(|other| !is_own && is_telling(other) && names(&place.clause, other, true))
+    };
+    let found: Vec<Option<&str>> = places.iter().map(named_in).collect();
+    let Some(other) =
+        found.first().copied().flatten().filter(|first| found.iter().all(|one| *one == Some(*first)))
+    else {
+        return;
+    };
+    let place = places.first().map_or(quote.span(), |place| place.span.clone());
+    let message =
+        format!("the text is about the run {}, but the expression reads {}", named(other), named(name));
+    findings.push(
+        Finding::new(rules::QUOTE_OF_ANOTHER_RUN, place, message)
+            .help(format!("read `{other}.…`, or write the sentence about {}", named(name)))
+            .related(expr.span(), "the expression"),
+    );
+}
+
+/// Whether the name of a run is certainly the run where a text contains it.
+fn is_telling(name: &str) -> bool {
+    name.chars().count() > 2 && !COMMON.contains(&name.to_lowercase().as_str())
+}
+
+/// Whether a clause contains the name of a run as a word, and, if `certainly`, behind an article or a preposition, or alone.
+fn names(clause: &str, name: &str, certainly: bool) -> bool {
+    let lower = clause.to_lowercase();
+    let words: Vec<&str> =
+        lower.split(|c: char| !(c.is_alphanumeric() || c == '_')).filter(|word| !word.is_empty()).collect();
+    let name = name.to_lowercase();
+    let places = words.iter().enumerate().filter(|(_, word)| **word == name).map(|(i, _)| i);
+    let mut before = places.map(|i| i.checked_sub(1).and_then(|i| words.get(i)));
+    before.any(|before| match before {
+        Some(word) => !certainly || BEFORE_NAME.contains(word),
+        None => !certainly || words.len() == 1,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn runs_are_named_behind_articles() {
+        for clause in ["the small swing takes", "on small ones", "small"] {
+            assert!(names(clause, "small", true), "{clause}");
+        }
+        for clause in ["as small as", "it is small", "the smaller swing takes"] {
+            assert!(!names(clause, "small", true), "{clause}");
+        }
+        assert!(names("as small as", "small", false));
+    }
+
+    /// The messages about quotes in a text: a small swing takes 1.42 s, a wide one 1.65 s.
+    fn messages(text: &str, says: serde_json::Value) -> Vec<String> {
+        let xml = "<mujoco><worldbody><body><joint name='j' axis='0 1 0'/><geom size='.05' pos='0 0 -.5'/></body></worldbody></mujoco>";
+        let control = serde_json::json!({"label": "start (rad)", "param": "q", "min": 0, "max": 2, "step": 0.1, "value": 0.1, "reset": true});
+        let lab = serde_json::json!({"stopAt": 6, "xml": xml, "controls": [control], "setup": "data.qpos[0] = ctx.q",
+            "readouts": [{"label": "angle (rad)", "expr": "data.qpos[0]"}],
+            "verify": {"runs": {"small": {"set": {"start (rad)": 0.1}}, "wide": {"set": {"start (rad)": 1.5}}},
+                "measure": {"T": "period(data.qpos[0])"}, "says": says}});
+        let lesson = format!("# Swings\n\n{text}\n\n```lab\n{lab}\n```\n");
+        let report = crate::Checker::new(|_: &str| None::<String>).check("lesson.md", &lesson);
+        let found = report.findings.iter().filter(|f| f.code == "quote-of-another-run");
+        found.map(|f| f.message.clone()).collect()
+    }
+
+    #[test]
+    fn exchanged_runs_are_found() {
+        let exchanged = serde_json::json!([["1.65 s", "wide.T"], ["1.42 s", "small.T"]]);
+        for text in [
+            "The small swing takes 1.65 s, the wide one 1.42 s.",
+            "It takes 1.65 s for the small swing and 1.42 s for the wide one.",
+            "| swing | period |\n|---|---|\n| small | 1.65 s |\n| wide | 1.42 s |",
+        ] {
+            assert_eq!(messages(text, exchanged.clone()).len(), 2, "{text}");
+        }
+        for text in [
+            "The wide swing takes 1.65 s, the small one 1.42 s.",
+            "The period is 1.65 s, and not the 1.42 s of a small swing.",
+            "The wide swing takes 1.65 s against the small one's 1.42 s.",
+            "It takes 1.65 s, or 1.42 s.",
+            "| swing | period |\n|---|---|\n| wide | 1.65 s |\n| small | 1.42 s |",
+        ] {
+            assert_eq!(messages(text, exchanged.clone()), [""; 0], "{text}");
+        }
+    }
+}

@@ -1,0 +1,90 @@
+//! The clause around a place of the text, or the first cell of its row.
+
+use std::ops::Range;
+
+/// The most bytes of a text before and behind a place that are read.
+const REACH: usize = 400;
+/// Signs that separate clauses. `.` and `,` do so only before a space: `1.42 s`.
+const SEPARATORS: [char; 12] = [';', ':', '!', '?', '(', ')', '"', '<', '>', '|', '—', '–'];
+/// Words between clauses.
+const WORDS: [&str; 14] = [
+    " and ",
+    " but ",
+    " while ",
+    " whereas ",
+    " against ",
+    " instead ",
+    " und ",
+    " aber ",
+    " während ",
+    " et ",
+    " mais ",
+    " y ",
+    " pero ",
+    " e ",
+];
+
+/// The clause around a place, without the place itself; in a row of a table, its first cell.
+pub(super) fn clause_of(file: &str, place: &Range<usize>) -> String {
+    let before = file.get(..place.start).unwrap_or("");
+    let behind = file.get(place.end..).unwrap_or("");
+    let line = before.rsplit('\n').next().unwrap_or(before);
+    if let Some(cells) = line.trim_start().strip_prefix('|') {
+        return cells.split('|').next().unwrap_or("").trim().to_string();
+    }
+    let start = (before.len().saturating_sub(REACH)..=before.len()).find(|i| before.is_char_boundary(*i));
+    let before = before.get(start.unwrap_or(0)..).unwrap_or("");
+    let before = before.rsplit("\n\n").next().unwrap_or(before).replace('\n', " ");
+    let end = (0..=REACH.min(behind.len())).rev().find(|i| behind.is_char_boundary(*i)).unwrap_or(0);
+    let behind = behind.get(..end).unwrap_or("");
+    let behind = behind.split("\n\n").next().unwrap_or(behind).replace('\n', " ");
+    let after_last = ends(&before).max().unwrap_or(0);
+    let first = starts(&behind).min().unwrap_or(behind.len());
+    format!("{} {}", before.get(after_last..).unwrap_or("").trim(), behind.get(..first).unwrap_or("").trim())
+}
+
+/// Whether a character, with the one behind it, separates clauses.
+fn separates(c: char, next: Option<char>) -> bool {
+    SEPARATORS.contains(&c) || (c == '.' || c == ',') && next.is_none_or(char::is_whitespace)
+}
+
+/// The places behind separators.
+fn ends(text: &str) -> impl Iterator<Item = usize> + '_ {
+    let signs =
+        text.char_indices().filter(|(i, c)| separates(*c, text.get(i + c.len_utf8()..).and_then(first_of)));
+    let words = WORDS.iter().flat_map(|word| text.match_indices(word).map(|(i, word)| i + word.len()));
+    signs.map(|(i, c)| i + c.len_utf8()).chain(words)
+}
+
+/// The places before separators.
+fn starts(text: &str) -> impl Iterator<Item = usize> + '_ {
+    let signs =
+        text.char_indices().filter(|(i, c)| separates(*c, text.get(i + c.len_utf8()..).and_then(first_of)));
+    let words = WORDS.iter().flat_map(|word| text.match_indices(word).map(|(i, _)| i));
+    signs.map(|(i, _)| i).chain(words)
+}
+
+fn first_of(text: &str) -> Option<char> {
+    text.chars().next()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_clause_ends_at_signs_and_conjunctions() {
+        let clause = |text: &str, quote: &str| {
+            let start = text.find(quote).unwrap();
+            clause_of(text, &(start..start + quote.len()))
+        };
+        let text =
+            "Look: the small swing takes 1.65 s, the wide\none 1.42 s and on earth 7 s. The rest is 3 s";
+        assert_eq!(clause(text, "1.65 s"), "the small swing takes ");
+        assert_eq!(clause(text, "1.42 s"), "the wide one ");
+        assert_eq!(clause(text, "7 s"), "on earth ");
+        assert_eq!(clause(text, "3 s"), "The rest is ");
+        assert_eq!(clause("| run | T |\n|---|---|\n| small | 1.42 s |\n", "1.42 s"), "small");
+        assert_eq!(clause("it falls for 0.45 s on earth", "0.45 s"), "it falls for on earth");
+    }
+}
