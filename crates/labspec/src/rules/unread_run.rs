@@ -21,30 +21,55 @@ pub const UNREAD_RUN: &Rule = &Rule {
 
 pub(super) const CHECK: Check = Check::Lesson(check_lesson);
 
+/// Names with members that claims read beside the runs.
+const OTHERS: [&str; 6] = ["Math", "lib", "mj", "data", "model", "ctx"];
+
+/// Checks the questions. The runs of a lab may be there for other objects, and for an author who reads the report.
 fn check_lesson(lesson: &Lesson, findings: &mut Vec<Finding>) {
     let used: Vec<&Verify> = lesson.verifies().flat_map(|verify| lesson.used_by(verify)).collect();
-    // An object that uses another one, or is used, has claims elsewhere.
-    let is_alone =
-        |verify: &&Verify| verify.uses.is_none() && !used.iter().any(|other| other.span == verify.span);
-    for verify in lesson.verifies().filter(is_alone) {
-        let claims = verify.options.iter().chain(&verify.value).chain(&verify.wrong).chain(verify.quoted());
-        let claims: Vec<&str> =
-            claims.chain(verify.find.iter().map(|found| &found.holds)).map(|text| text.as_str()).collect();
-        if verify.runs.len() < 2 || claims.is_empty() {
-            continue;
-        }
-        for run in &verify.runs {
-            let name = run.name.as_str();
-            // That a run breaks, or does not, is a claim.
-            if run.expect.requires() || claims.iter().any(|claim| names(claim, name)) {
-                continue;
-            }
-            findings.push(
-                Finding::new(UNREAD_RUN, run.name.span(), format!("no claim reads the run {}", named(name)))
-                    .help(format!("compare with it in a condition (`{name}.…`), or delete the run")),
-            );
+    let questions = lesson.quizzes.iter().flat_map(|quiz| quiz.numbered());
+    for verify in questions.filter_map(|(_, question)| question.verify.as_ref()) {
+        // An object that uses another one, or is used, has claims elsewhere; a search names its runs in other ways.
+        let is_shared = verify.uses.is_some() || used.iter().any(|other| other.span == verify.span);
+        if !is_shared && verify.find.is_empty() {
+            check_runs(verify, findings);
         }
     }
+}
+
+fn check_runs(verify: &Verify, findings: &mut Vec<Finding>) {
+    let claims = verify.options.iter().chain(&verify.value).chain(&verify.wrong).chain(verify.quoted());
+    let claims: Vec<&str> = claims.map(|text| text.as_str()).collect();
+    let existing: Vec<&str> = verify.runs.iter().map(|run| run.name.as_str()).chain(OTHERS).collect();
+    // Another rule reports a name that nothing has.
+    let is_misspelt = claims.iter().flat_map(|claim| heads(claim)).any(|head| !existing.contains(&head));
+    if verify.runs.len() < 2 || claims.is_empty() || is_misspelt {
+        return;
+    }
+    for run in &verify.runs {
+        let name = run.name.as_str();
+        // That a run breaks, or does not, is a claim.
+        if run.expect.requires() || claims.iter().any(|claim| names(claim, name)) {
+            continue;
+        }
+        findings.push(
+            Finding::new(UNREAD_RUN, run.name.span(), format!("no claim reads the run {}", named(name)))
+                .help(format!("compare with it in a condition (`{name}.…`), or delete the run")),
+        );
+    }
+}
+
+/// The names before a dot, and before an index with a dot behind it: `earth` of `earth.t` and of `earth[1].t`.
+fn heads(expr: &str) -> impl Iterator<Item = &str> {
+    let is_part = |c: char| c.is_alphanumeric() || c == '_' || c == '$';
+    let dots = expr.match_indices('.').filter_map(move |(dot, _)| {
+        let before = expr.get(..dot)?;
+        let start = before.rfind(|c: char| !is_part(c)).map_or(0, |i| i + 1);
+        let is_member = before.get(..start)?.ends_with(['.', ']']);
+        let head = before.get(start..)?;
+        (!is_member && head.starts_with(|c: char| c.is_alphabetic() || c == '_' || c == '$')).then_some(head)
+    });
+    dots
 }
 
 /// Whether an expression contains a name as a whole word.
@@ -68,5 +93,6 @@ mod tests {
         assert!(names("all[2].t", "all"));
         assert!(!names("moon.t > earthly.t", "earth"));
         assert!(!names("a.small < 1", "mall"));
+        assert_eq!(heads("moon.t > 1.5 * earth.t + a[1].b").collect::<Vec<_>>(), ["moon", "earth"]);
     }
 }

@@ -9,8 +9,8 @@ use super::outcome::MeasuredRuns;
 use super::outcomes::{Outcomes, run_all_numerics};
 use super::quote::RenderedText;
 use super::quote_checker::QuoteChecker;
-use super::{answer, column, exact, says, units};
-use crate::finding::Finding;
+use super::{answer, column, exact, mixed_claims, says, units};
+use crate::finding::{Finding, Severity};
 use crate::json::read::named;
 use crate::rules;
 use crate::run::StepVariant;
@@ -29,9 +29,14 @@ pub fn check_verify(
     match run_all_numerics(bound, verify, findings) {
         Some(outcomes) => {
             check_identical_runs(bound, &outcomes.nominal, findings);
-            check_events(bound, &outcomes.nominal, verify, findings);
-            units::check_dimensions(bound, verify, findings);
-            judge(bound, &outcomes, verify, question, rendered, findings)
+            mixed_claims::check_dimensions(bound, verify, findings);
+            let before = findings.len();
+            let judgement = judge(bound, &outcomes, verify, question, rendered, findings);
+            // A claim that is refuted has its finding.
+            if !findings.iter().skip(before).any(|f| f.severity == Severity::Error) {
+                check_events(bound, &outcomes.nominal, verify, findings);
+            }
+            judgement
         }
         None => not_executable(verify, question, "a run cannot be made"),
     }

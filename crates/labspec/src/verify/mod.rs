@@ -55,6 +55,7 @@ mod list_measure;
 mod loose_tolerance;
 mod measure;
 mod measure_units;
+mod mixed_claims;
 mod named_run;
 mod no_value;
 mod numeric_answer;

@@ -1,4 +1,4 @@
-//! Finds quotes of one run in a clause that names another run: "the small swing takes 1.65 s" beside `wide.T`.
+//! Finds pairs of quotes whose runs are exchanged: "the small swing takes 1.65 s, the wide one 1.42 s" beside `wide.T` and `small.T`.
 
 use super::bound::BoundVerify;
 use super::layout::Slot;
@@ -8,6 +8,41 @@ use crate::json::read::named;
 use crate::rules;
 use crate::source::Text;
 use std::collections::BTreeSet;
+
+/// A quote in a clause that names another run than its expression reads.
+pub(super) struct Misnamed<'t> {
+    quote: &'t Text,
+    expr: Text,
+    /// The run that the clause names, and the one that the expression reads.
+    named: String,
+    read: String,
+    place: std::ops::Range<usize>,
+}
+
+/// Reports pairs of quotes of which each names the run that the other one reads, with the same expression.
+pub(super) fn check_exchanged_runs(quotes: &[Misnamed<'_>], findings: &mut Vec<Finding>) {
+    let is_exchanged = |a: &Misnamed<'_>, b: &Misnamed<'_>| {
+        let of_other = |text: &Text, run: &str, other: &str| {
+            text.as_str().replace(&format!("{run}."), &format!("{other}."))
+        };
+        a.named == b.read && a.read == b.named && of_other(&a.expr, &a.read, &a.named) == b.expr.as_str()
+    };
+    for one in quotes {
+        if !quotes.iter().any(|other| is_exchanged(one, other)) {
+            continue;
+        }
+        let [run, read] = [&one.named, &one.read].map(|name| named(name));
+        let message = format!(
+            "the text is about the run {run}, but the expression of \"{}\" reads {read}",
+            one.quote.as_str()
+        );
+        findings.push(
+            Finding::new(rules::QUOTE_OF_ANOTHER_RUN, one.place.clone(), message)
+                .help(format!("exchange the two numbers of the text, or write the sentence about {read}"))
+                .related(one.expr.span(), "the expression"),
+        );
+    }
+}
 
 /// Words before the name of a run in a sentence: `the small swing`, `on earth`.
 const BEFORE_NAME: [&str; 27] = [
@@ -20,15 +55,14 @@ const COMMON: [&str; 16] = [
     "other", "same", "last",
 ];
 
-/// Reports a quote if every place of it is in a clause that names another run, and not the one that its expression reads.
-pub(super) fn check_named_run(
+/// A quote of which every place is in a clause that names another run, and not the one that its expression reads.
+pub(super) fn misnamed<'t>(
     bound: &BoundVerify<'_>,
-    quote: &Text,
+    quote: &'t Text,
     expr: &Text,
     places: &[QuotePlace],
-    findings: &mut Vec<Finding>,
-) {
-    let Some(claim) = bound.claim(expr) else { return };
+) -> Option<Misnamed<'t>> {
+    let claim = bound.claim(expr)?;
     let slots = claim.reads.iter().filter_map(|place| bound.layout().slots.get(*place));
     let runs: BTreeSet<usize> = slots
         .filter_map(|slot| match slot {
@@ -36,28 +70,23 @@ pub(super) fn check_named_run(
             _ => None,
         })
         .collect();
-    let [run] = runs.iter().copied().collect::<Vec<_>>()[..] else { return };
-    let Some(name) = bound.runs.get(run).map(|run| run.name) else { return };
+    let [run] = runs.iter().copied().collect::<Vec<_>>()[..] else { return None };
+    let name = bound.runs.get(run)?.name;
     let others: BTreeSet<&str> =
         bound.runs.iter().map(|run| run.name).filter(|other| *other != name).collect();
     let named_in = |place: &QuotePlace| {
         let is_own = names(&place.clause, name, false);
         others.iter().copied().find(|other| !is_own && is_telling(other) && names(&place.clause, other, true))
     };
-    let found: Vec<Option<&str>> = places.iter().map(named_in).collect();
-    let Some(other) =
-        found.first().copied().flatten().filter(|first| found.iter().all(|one| *one == Some(*first)))
-    else {
-        return;
-    };
-    let place = places.first().map_or(quote.span(), |place| place.span.clone());
-    let message =
-        format!("the text is about the run {}, but the expression reads {}", named(other), named(name));
-    findings.push(
-        Finding::new(rules::QUOTE_OF_ANOTHER_RUN, place, message)
-            .help(format!("read `{other}.…`, or write the sentence about {}", named(name)))
-            .related(expr.span(), "the expression"),
-    );
+    let other = named_in(places.first()?)?;
+    let is_everywhere = places.iter().all(|place| named_in(place) == Some(other));
+    is_everywhere.then(|| Misnamed {
+        quote,
+        expr: expr.clone(),
+        named: other.to_string(),
+        read: name.to_string(),
+        place: places.first().map_or(quote.span(), |place| place.span.clone()),
+    })
 }
 
 /// Whether the name of a run is certainly the run where a text contains it.

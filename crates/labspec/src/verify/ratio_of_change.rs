@@ -24,7 +24,7 @@ const LOSES: [&str; 5] = ["lose", "loses", "lost", "losing", "dissipates"];
 const KEEPS: [&str; 6] = ["keep", "keeps", "kept", "retains", "retain", "retained"];
 /// Behind the number: `65 % is left`. They are at most this number of words behind it.
 const REMAINS: [&str; 6] = ["left", "remain", "remains", "remaining", "survive", "survives"];
-const REMAINS_WORDS: usize = 5;
+const REMAINS_WORDS: usize = 6;
 /// Questions for a part or a change in percent.
 const ASKED: [&str; 6] = [
     "how many percent",
@@ -39,14 +39,16 @@ const ASKED: [&str; 6] = [
 pub(super) type MeasureTexts<'t> = &'t dyn Fn(&str) -> Option<String>;
 
 /// Reports a quote that states a change in percent, with an expression that is certainly a ratio, or what remains, with one that is a
-/// loss. Returns the reason.
+/// loss. `clause` is the text around the quote. Returns the reason.
 pub(super) fn check_ratio_of_change(
     quote: &Text,
+    clause: Option<&str>,
     expr: &Text,
     texts: MeasureTexts<'_>,
     findings: &mut Vec<Finding>,
 ) -> Option<String> {
-    let stated = change(quote.as_str()).or_else(|| loss_or_rest(quote.as_str()))?;
+    let in_text = |text: &str| change(text).or_else(|| loss_or_rest(text));
+    let stated = in_text(quote.as_str()).or_else(|| in_text(clause?))?;
     report(quote, &stated, expr, texts, findings)
 }
 
@@ -262,7 +264,7 @@ mod tests {
 
     fn is_reported(quote: &str, expr: &str) -> bool {
         let [quote, expr] = [quote, expr].map(|text| Text::derived(text.to_string(), 0..1));
-        check_ratio_of_change(&quote, &expr, &text_of, &mut Vec::new()).is_some()
+        check_ratio_of_change(&quote, None, &expr, &text_of, &mut Vec::new()).is_some()
     }
 
     fn text_of(name: &str) -> Option<String> {

@@ -1,6 +1,6 @@
 //! Checks quotes: numbers and words of the text, and cells of tables.
 
-use super::named_run::check_named_run;
+use super::named_run::{check_exchanged_runs, misnamed};
 use super::quote_checker::{Quote, QuoteChecker, QuotedValue, check_number, check_words};
 use super::ratio_of_change::check_ratio_of_change;
 use super::{column, quote};
@@ -23,6 +23,12 @@ pub(super) fn check_quotes(
     for quoted in &verify.says {
         all.extend(check_line(checker, quoted, question, findings));
     }
+    let misnamed = verify.says.iter().filter_map(|quoted| {
+        let places = quote::places_of_quote(&quoted.quote, question, checker.rendered);
+        let [expr] = quoted.exprs.as_slice() else { return None };
+        misnamed(checker.bound, &quoted.quote, expr, &places)
+    });
+    check_exchanged_runs(&misnamed.collect::<Vec<_>>(), findings);
     for claim in &verify.table {
         all.extend(column::check_column(checker, claim, findings));
     }
@@ -48,12 +54,10 @@ fn check_line(
     }
     let text_of = |name: &str| checker.bound.text_of_measure(name);
     if let [expr] = exprs.as_slice()
-        && let Some(reason) = check_ratio_of_change(&quoted.quote, expr, &text_of, findings)
+        && let Some(reason) =
+            check_ratio_of_change(&quoted.quote, clause_of(&places), expr, &text_of, findings)
     {
         return vec![Quote::unclear(&quoted.quote, &reason)];
-    }
-    if let [expr] = exprs.as_slice() {
-        check_named_run(checker.bound, &quoted.quote, expr, &places, findings);
     }
     let numbers = given.iter().filter(|(_, given)| !given.is_condition()).count();
     // With one expression, it belongs to the number that the quote states. With words and numbers, every number must be
@@ -97,4 +101,10 @@ fn check_line(
         });
     }
     all
+}
+
+/// The clause of a quote with one place.
+fn clause_of(places: &[quote::QuotePlace]) -> Option<&str> {
+    let [place] = places else { return None };
+    Some(&place.clause)
 }

@@ -5,16 +5,13 @@ use super::bound_run::{BoundRun, BoundScene};
 use super::compiled_claim::{ClaimInputs, CompiledClaim};
 use super::layout::name_of_axis;
 use super::measure_units::MeasureUnits;
-use super::options::is_undecided;
 use super::outcome::MeasuredRuns;
 use super::outcome_names::OutcomeNames;
 use super::run_cache::BoundLab;
 use crate::bind::Scope;
 use crate::bind::{given, given_by};
-use crate::finding::{Finding, Severity};
-use crate::rules::mixed_dimensions::clash_finding;
 use crate::source::Text;
-use crate::spec::{SweepAxis, Verify};
+use crate::spec::SweepAxis;
 use labspec_bind::units;
 use labspec_expr::Compiler;
 use labspec_expr::dimension::{BASES, Dimension, Measure};
@@ -44,18 +41,6 @@ pub(super) fn of_claim(bound: &BoundVerify<'_>, outcome: &MeasuredRuns, text: &T
         Measure::Dimension(dimension) if !nothing(&dimension) => Some(dimension),
         Measure::Dimension(dimension) => by_scale(bound, outcome, &claim, units).or(Some(dimension)),
         _ => by_scale(bound, outcome, &claim, units),
-    }
-}
-
-/// Reports claims that add or compare quantities of different dimensions: a distance and a time.
-pub(super) fn check_dimensions(bound: &BoundVerify<'_>, verify: &Verify, findings: &mut Vec<Finding>) {
-    let (Some(base), Some(units)) = (bound.base(), bound.units()) else { return };
-    let names = OutcomeNames::new(bound.layout(), base.names(Scope::Measure)).measuring(&units.runs);
-    for text in verify.options.iter().chain(&verify.value).chain(verify.quoted()) {
-        let claim = bound.claim(text).filter(|_| !is_undecided(text));
-        let Some(program) = claim.as_ref().and_then(|claim| claim.program.as_ref()) else { continue };
-        let clashes = program.measured(&names, &units.given).clashes;
-        findings.extend(clashes.iter().map(|clash| clash_finding(text, clash, Severity::Warning)));
     }
 }
 

@@ -24,7 +24,7 @@ const WORDS: [&str; 14] = [
     " e ",
 ];
 
-/// The clause around a place, without the place itself; in a row of a table, its first cell.
+/// The clause around a place; in a row of a table, its first cell.
 pub(super) fn clause_of(file: &str, place: &Range<usize>) -> String {
     let before = file.get(..place.start).unwrap_or("");
     let behind = file.get(place.end..).unwrap_or("");
@@ -40,7 +40,14 @@ pub(super) fn clause_of(file: &str, place: &Range<usize>) -> String {
     let behind = behind.split("\n\n").next().unwrap_or(behind).replace('\n', " ");
     let after_last = ends(&before).max().unwrap_or(0);
     let first = starts(&behind).min().unwrap_or(behind.len());
-    format!("{} {}", before.get(after_last..).unwrap_or("").trim(), behind.get(..first).unwrap_or("").trim())
+    let quote = file.get(place.clone()).unwrap_or("").replace('\n', " ");
+    format!(
+        "{}{quote}{}",
+        before.get(after_last..).unwrap_or("").trim_start(),
+        behind.get(..first).unwrap_or("")
+    )
+    .trim_end()
+    .to_string()
 }
 
 /// Whether a character, with the one behind it, separates clauses.
@@ -80,11 +87,11 @@ mod tests {
         };
         let text =
             "Look: the small swing takes 1.65 s, the wide\none 1.42 s and on earth 7 s. The rest is 3 s";
-        assert_eq!(clause(text, "1.65 s"), "the small swing takes ");
-        assert_eq!(clause(text, "1.42 s"), "the wide one ");
-        assert_eq!(clause(text, "7 s"), "on earth ");
-        assert_eq!(clause(text, "3 s"), "The rest is ");
+        assert_eq!(clause(text, "1.65 s"), "the small swing takes 1.65 s");
+        assert_eq!(clause(text, "1.42 s"), "the wide one 1.42 s");
+        assert_eq!(clause(text, "7 s"), "on earth 7 s");
+        assert_eq!(clause(text, "3 s"), "The rest is 3 s");
         assert_eq!(clause("| run | T |\n|---|---|\n| small | 1.42 s |\n", "1.42 s"), "small");
-        assert_eq!(clause("it falls for 0.45 s on earth", "0.45 s"), "it falls for on earth");
+        assert_eq!(clause("it falls for 0.45 s on earth", "0.45 s"), "it falls for 0.45 s on earth");
     }
 }

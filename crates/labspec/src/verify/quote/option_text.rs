@@ -115,7 +115,7 @@ pub(in crate::verify) fn quantities_in(text: &str, languages: Languages) -> Vec<
     let chars = Chars(&chars);
     let stated = |q: &Quantity| {
         let unit = q.unit.clone().filter(|u| u.is_own() && u.dimension.is_some() && !u.is_doubtful())?;
-        let before = chars.text(q.whole.start.saturating_sub(30), q.whole.start).to_lowercase();
+        let before = chars.text(q.whole.start.saturating_sub(CLAUSE), q.whole.start).to_lowercase();
         let (low, high) = stated_range(q, before.trim_end(), languages)?;
         Some(OptionNumber { text: chars.text(q.whole.start, q.whole.end), low, high, unit, alone: false })
     };
@@ -159,9 +159,13 @@ enum BoundSide {
     Below,
 }
 
-/// Words that turn a bound around: `never more than`.
-const NEGATIONS: [&str; 12] =
-    ["no", "not", "never", "n't", "cannot", "nicht", "nie", "niemals", "jamais", "nunca", "mai", "kein"];
+/// Words directly before a bound that turn it around: `no more than`.
+const NEGATIONS: [&str; 2] = ["no", "kein"];
+/// Words anywhere in the clause before a bound that do: `it never sinks into the floor by more than`.
+const VERB_NEGATIONS: [&str; 10] =
+    ["not", "never", "cannot", "nicht", "nie", "niemals", "jamais", "nunca", "mai", "pas"];
+/// The most characters before a number that are read.
+const CLAUSE: usize = 100;
 
 /// The side on which the bound lies that the words before a number state: `at least`, `later than`, `never more than`.
 fn side_of_bound(before: &str, languages: Languages) -> Option<BoundSide> {
@@ -173,8 +177,11 @@ fn side_of_bound(before: &str, languages: Languages) -> Option<BoundSide> {
         (None, None) => comparative(before)?,
     };
     let rest = before.strip_suffix(words)?.trim_end();
-    let negated =
-        NEGATIONS.iter().any(|word| ends_with(rest, word) || *word == "n't" && rest.ends_with(word));
+    let clause = rest.rsplit([',', ';', ':', '.']).next().unwrap_or(rest);
+    let mut of_clause = clause.split(|c: char| !c.is_alphanumeric());
+    let negated = NEGATIONS.iter().any(|word| ends_with(rest, word))
+        || clause.contains("n't")
+        || of_clause.any(|word| VERB_NEGATIONS.contains(&word));
     Some(match (side, negated) {
         (BoundSide::Above, false) | (BoundSide::Below, true) => BoundSide::Above,
         _ => BoundSide::Below,
