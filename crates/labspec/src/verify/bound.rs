@@ -6,6 +6,7 @@ use super::layout::{NumberLayout, Slot};
 use super::list_measure::{self, ArrayLanguage};
 use super::measure::Sampled;
 use super::measure_units::MeasureUnits;
+use super::nested_final::nested_finals;
 use super::outcome::{MeasuredRun, MeasuredRuns, SweepMember};
 use super::reads;
 use super::run_cache::{BoundLab, RunCache};
@@ -305,12 +306,17 @@ impl<'a> BoundVerify<'a> {
                     Some((Cow::Owned(list_measure::element_name(name, i)), Cow::Owned(text), compiled))
                 })),
             }
-            let compiles = all.iter().all(|(.., compiled)| compiled.program.is_some());
+            let nested: Vec<Finding> = all
+                .first()
+                .and_then(|(_, text, compiled)| Some(nested_finals(compiled.program.as_ref()?, text)))
+                .unwrap_or_default();
+            let compiles = nested.is_empty() && all.iter().all(|(.., compiled)| compiled.program.is_some());
             if reported.is_none() || (!has_meaning && compiles) {
-                let first = all.first().map(|(_, text, compiled)| {
-                    compiled.diagnostics.iter().map(|d| to_finding(d, text)).collect()
-                });
-                reported = Some(first.unwrap_or_default());
+                let first = all
+                    .first()
+                    .into_iter()
+                    .flat_map(|(_, text, compiled)| compiled.diagnostics.iter().map(|d| to_finding(d, text)));
+                reported = Some(first.chain(nested).collect());
             }
             has_meaning |= compiles;
             let Some(scene) = self.scenes.get_mut(place).filter(|_| compiles) else { continue };

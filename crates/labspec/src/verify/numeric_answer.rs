@@ -9,6 +9,7 @@ use super::grounded::{decided_value, report_constant_claim, report_undecided};
 use super::outcome::MeasuredRuns;
 use super::outcomes::Outcomes;
 use super::ratio_of_change::check_asked_change;
+use super::ratio_order::check_ratio_order;
 use super::survival::{fragile_answer, verdict_by, withstand_numerics};
 use super::verdict::{Answer, Verdict, Weight};
 use super::{quote, units};
@@ -16,8 +17,9 @@ use crate::finding::Finding;
 use crate::rules;
 use crate::source::Text;
 use crate::spec::{Question, QuestionKind};
-use labspec_bind::units::written;
+use labspec_bind::units::{parse as units_of, written};
 use labspec_expr::Value;
+use labspec_expr::dimension::Dimension;
 use std::ops::Range;
 
 /// Checks that the keyed number equals the value of the expression, and that its tolerance rejects the values of mistakes
@@ -45,14 +47,14 @@ pub(super) fn check_number(
     let in_text = unit_in_text(bound, &outcomes.nominal, text, question).filter(|_| asked.is_none());
     let asked = asked.as_ref().map(|unit| unit.as_str()).or(in_text.as_deref());
     let measured = asked.and_then(|_| units::of_claim(bound, &outcomes.nominal, text));
+    // A frequency times 2π is an angular velocity, which is not in hertz.
+    let measured = match asked.is_some_and(|unit| unit.contains("Hz")) {
+        true => measured.map(quote::without_pure_factor),
+        false => measured,
+    };
     let gives = measured.as_ref().map(written);
     let is_fraction = measured.as_ref().is_some_and(|d| d.is_number() && d.factor == 1.0);
-    if asked
-        .or(quote::asked_unit(question.q.as_str()).as_deref())
-        .is_some_and(|u| quote::percentage(u).is_some())
-        && let Some(reason) =
-            check_asked_change(&question.q, text, &|name| bound.text_of_measure(name), findings)
-    {
+    if let Some(reason) = contradicts_question(bound, text, question, asked, findings) {
         return Answer::failed(reason);
     }
     let unit = quote::answer_unit(asked, measured);
@@ -98,8 +100,24 @@ pub(super) fn check_number(
     Answer { verdict: verdict_by(Some(value.evidence)), reason, weights }
 }
 
-/// The unit in which the text of a question asks: without a unit beside the field, the student answers in it. `None` for angles and
-/// pure numbers, of which a text may ask turns or things.
+/// Reports an expression that is not what the question asks for: the ratio where it asks for a change, or the inverse ratio. Returns the
+/// reason.
+fn contradicts_question(
+    bound: &BoundVerify<'_>,
+    text: &Text,
+    question: &Question,
+    unit: Option<&str>,
+    findings: &mut Vec<Finding>,
+) -> Option<String> {
+    let in_text = quote::asked_unit(question.q.as_str());
+    let is_percentage = unit.or(in_text.as_deref()).is_some_and(|unit| quote::percentage(unit).is_some());
+    let text_of = |name: &str| bound.text_of_measure(name);
+    let change = is_percentage.then(|| check_asked_change(&question.q, text, &text_of, findings)).flatten();
+    change.or_else(|| check_ratio_order(bound, &question.q, text, findings))
+}
+
+/// The unit in which the text of a question asks: without a unit beside the field, the student answers in it. `None` for pure numbers
+/// and for units of angles other than degrees and radians: a text may ask for turns or things.
 fn unit_in_text(
     bound: &BoundVerify<'_>,
     outcome: &MeasuredRuns,
@@ -108,7 +126,18 @@ fn unit_in_text(
 ) -> Option<String> {
     let asked = quote::asked_unit(question.q.as_str())?;
     let measured = units::of_claim(bound, outcome, text)?;
-    (!measured.has_angle() && !measured.is_number()).then_some(asked)
+    let is_angle =
+        || units_of(&asked).is_some_and(|unit| unit.has_angle() && unit.agrees(&measured) && !is_turn(&unit));
+    let is_read = if measured.has_angle() { is_angle() } else { !measured.is_number() };
+    is_read.then_some(asked)
+}
+
+/// Whether a unit of an angle is a whole turn.
+fn is_turn(unit: &Dimension) -> bool {
+    let radians = unit.factor.abs();
+    [std::f64::consts::TAU, 1.0 / std::f64::consts::TAU]
+        .iter()
+        .any(|turn| (radians / turn - 1.0).abs() < 1e-6)
 }
 
 /// The value of the expression of a numeric answer. If there is none, the reason is returned and reported.
@@ -374,4 +403,39 @@ fn no_value(text: &Text, x: f64) -> Finding {
 
 fn name_not_finite(x: f64) -> &'static str {
     if x.is_nan() { "NaN" } else { "infinity" }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Verdict;
+
+    /// The verdict on a numeric answer about a pendulum that is let go at 0.5 rad: its period is 1.441 s.
+    fn verdict(question: &str, unit: Option<&str>, answer: f64, value: &str) -> Verdict {
+        let xml = "<mujoco><worldbody><body><joint axis='0 1 0'/><geom size='.05' pos='0 0 -.5'/></body></worldbody></mujoco>";
+        let lab = serde_json::json!({"stopAt": 4, "xml": xml, "setup": "data.qpos[0] = 0.5"});
+        let mut asked = serde_json::json!({"kind": "numeric", "q": question, "answer": answer, "tol": 0.02 * answer,
+            "verify": {"lab": lab, "measure": {"q": "max(data.qpos[0])", "T": "period(data.qpos[0])"}, "value": value}});
+        if let Some(unit) = unit {
+            asked["unit"] = unit.into();
+        }
+        let quiz = serde_json::json!({"id": "q", "questions": [asked]}).to_string();
+        let report = crate::Checker::new(|_: &str| None::<String>).check("q.json", &quiz);
+        let answers = report.checked.claims.iter().filter_map(|claim| claim.judgement.answer.as_ref());
+        answers.map(|answer| answer.verdict).next().unwrap_or(Verdict::Unverified)
+    }
+
+    #[test]
+    fn answers_are_in_the_unit_of_the_text() {
+        let angle = "How far does it swing, in degrees?";
+        assert_eq!(verdict(angle, None, 0.5, "q"), Verdict::Refuted);
+        assert_eq!(verdict(angle, None, 28.65, "q"), Verdict::Verified);
+        assert_eq!(verdict("How far does it swing, in rad?", None, 0.5, "q"), Verdict::Verified);
+        assert_eq!(verdict("How far does it swing, in turns?", None, 0.5, "q"), Verdict::Verified);
+        assert_eq!(verdict("What is its frequency?", Some("Hz"), 4.36, "2 * Math.PI / T"), Verdict::Refuted);
+        assert_eq!(verdict("What is its frequency?", Some("Hz"), 0.694, "1 / T"), Verdict::Verified);
+        assert_eq!(
+            verdict("What is its angular frequency?", Some("rad/s"), 4.36, "2 * Math.PI / T"),
+            Verdict::Verified
+        );
+    }
 }

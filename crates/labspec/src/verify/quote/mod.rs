@@ -55,7 +55,9 @@ pub use rendered::RenderedText;
 pub(super) use row_value::stated_values;
 pub use stated::{Counted, Stated, answered, claimed, counted, stated};
 pub(super) use table_cells::{cells_of_column, is_rendered_equally};
-pub(super) use unit_check::{AnswerUnit, UnitMatch, answer_unit, conversion, hold, is_unit, percentage};
+pub(super) use unit_check::{
+    AnswerUnit, UnitMatch, answer_unit, conversion, hold, is_unit, percentage, without_pure_factor,
+};
 pub(super) use unit_text::Unit;
 pub(super) use words::{QuotedCondition, check_words};
 

@@ -73,7 +73,7 @@ pub(super) fn is_angular_rate(d: &Dimension) -> bool {
 
 /// The dimension without a literal factor that is certainly a pure number: a half, or a multiple of π. A frequency times 2π is
 /// an angular velocity.
-pub(super) fn without_pure_factor(d: Dimension) -> Dimension {
+pub(in crate::verify) fn without_pure_factor(d: Dimension) -> Dimension {
     use std::f64::consts::{PI, TAU};
     const PURE: [f64; 9] =
         [0.5, PI, TAU, 2.0 * TAU, PI / 2.0, PI / 4.0, 2.0 * TAU / 3.0, 1.0 / PI, 1.0 / TAU];
