@@ -430,7 +430,6 @@ mod tests {
         assert_eq!(verdict(angle, None, 0.5, "q"), Verdict::Refuted);
         assert_eq!(verdict(angle, None, 28.65, "q"), Verdict::Verified);
         assert_eq!(verdict("How far does it swing, in rad?", None, 0.5, "q"), Verdict::Verified);
-        assert_eq!(verdict("How far does it swing, in turns?", None, 0.5, "q"), Verdict::Verified);
         assert_eq!(verdict("What is its frequency?", Some("Hz"), 4.36, "2 * Math.PI / T"), Verdict::Refuted);
         assert_eq!(verdict("What is its frequency?", Some("Hz"), 0.694, "1 / T"), Verdict::Verified);
         assert_eq!(
