@@ -42,7 +42,7 @@ struct Labelled<'l> {
     energy: Energy,
     /// The index of its program among the displayed ones.
     probe: usize,
-    /// The unit of the label, J.
+    /// The unit of the label, in J.
     unit: f64,
     samples: Vec<(f64, f64)>,
 }
@@ -78,7 +78,7 @@ fn labelled<'l>(lab: &'l crate::spec::Lab, model: &Model) -> Vec<Labelled<'l>> {
         let energy = named_energy(label)?;
         let unit = match of_label(label.as_str()) {
             Some((_, unit)) => {
-                joule.filter(|joule| joule.agrees(&unit)).map(|joule| unit.factor / joule.factor)?
+                joule.filter(|joule| joule.agrees(&unit)).map(|joule| joule.factor / unit.factor)?
             }
             None => 1.0,
         };

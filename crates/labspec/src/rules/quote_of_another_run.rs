@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Decided by `check_named_run` in `verify/named_run.rs`.
+/// Decided by `check_exchanged_runs` in `verify/named_run.rs`.
 pub const QUOTE_OF_ANOTHER_RUN: &Rule = &Rule {
     code: "quote-of-another-run",
     severity: Severity::Warning,

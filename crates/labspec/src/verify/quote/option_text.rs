@@ -159,9 +159,9 @@ enum BoundSide {
     Below,
 }
 
-/// Words directly before a bound that turn it around: `no more than`.
+/// Words directly before a bound that turn it around, and nowhere else: `no more than`.
 const NEGATIONS: [&str; 2] = ["no", "kein"];
-/// Words anywhere in the clause before a bound that do: `it never sinks into the floor by more than`.
+/// Words that do so directly before a bound; elsewhere in its clause, it is open what they deny: `it never sinks into the floor by more than`.
 const VERB_NEGATIONS: [&str; 10] =
     ["not", "never", "cannot", "nicht", "nie", "niemals", "jamais", "nunca", "mai", "pas"];
 /// The most characters before a number that are read.
@@ -177,11 +177,13 @@ fn side_of_bound(before: &str, languages: Languages) -> Option<BoundSide> {
         (None, None) => comparative(before)?,
     };
     let rest = before.strip_suffix(words)?.trim_end();
+    let directly = |list: &[&str]| list.iter().any(|word| ends_with(rest, word));
+    let negated = directly(&NEGATIONS) || directly(&VERB_NEGATIONS) || rest.ends_with("n't");
     let clause = rest.rsplit([',', ';', ':', '.']).next().unwrap_or(rest);
     let mut of_clause = clause.split(|c: char| !c.is_alphanumeric());
-    let negated = NEGATIONS.iter().any(|word| ends_with(rest, word))
-        || clause.contains("n't")
-        || of_clause.any(|word| VERB_NEGATIONS.contains(&word));
+    if !negated && (clause.contains("n't") || of_clause.any(|word| VERB_NEGATIONS.contains(&word))) {
+        return None;
+    }
     Some(match (side, negated) {
         (BoundSide::Above, false) | (BoundSide::Below, true) => BoundSide::Above,
         _ => BoundSide::Below,
