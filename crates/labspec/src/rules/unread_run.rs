@@ -24,14 +24,14 @@ pub(super) const CHECK: Check = Check::Lesson(check_lesson);
 /// Names with members that claims read beside the runs.
 const OTHERS: [&str; 6] = ["Math", "lib", "mj", "data", "model", "ctx"];
 
-/// Checks the questions. The runs of a lab may be there for other objects, and for an author who reads the report.
+/// Checks the questions with conditions, which compare. The runs of a lab, or of a number, may be there for an author who reads the report.
 fn check_lesson(lesson: &Lesson, findings: &mut Vec<Finding>) {
     let used: Vec<&Verify> = lesson.verifies().flat_map(|verify| lesson.used_by(verify)).collect();
     let questions = lesson.quizzes.iter().flat_map(|quiz| quiz.numbered());
     for verify in questions.filter_map(|(_, question)| question.verify.as_ref()) {
         // An object that uses another one, or is used, has claims elsewhere; a search names its runs in other ways.
         let is_shared = verify.uses.is_some() || used.iter().any(|other| other.span == verify.span);
-        if !is_shared && verify.find.is_empty() {
+        if !is_shared && verify.find.is_empty() && !verify.options.is_empty() {
             check_runs(verify, findings);
         }
     }
