@@ -364,6 +364,7 @@ mod tests {
                 "never more than 2 s",
                 "later than 1 s",
                 "no less than 1 s",
+                "within 2 s",
                 "longer, from 0.9 m",
                 "1050 ms, because g is 1.62 m/s²",
             ] {
@@ -382,6 +383,7 @@ mod tests {
                 "never more than 1 s",
                 "later than 5 s",
                 "no less than 5 s",
+                "within 1 s",
                 "less than 1 s",
                 "1.05 m/s",
                 "105 ms, because g is 1.62 m/s²",

@@ -138,7 +138,8 @@ fn stated_range(q: &Quantity, before: &str, languages: Languages) -> Option<(f64
     let states = |words: WordList| last_word(before, words, languages).is_some();
     let is_about = [WordList::Approximate, WordList::SlightlyLess].into_iter().any(states);
     let Quoted { value, half_unit, form, .. } = q.quoted;
-    match (q.refused, form) {
+    let is_within = WITHIN.iter().any(|word| ends_with(before, word));
+    match (q.refused.or(is_within.then_some(BOUND)), form) {
         (None, NumberForm::Range(a, b) | NumberForm::PlusMinus(a, b)) => Some((a, b)),
         (None, _) => {
             let off = half_unit.max(value.abs() * if is_about { ABOUT } else { PRINTED });
@@ -159,16 +160,23 @@ enum BoundSide {
     Below,
 }
 
-/// Words directly before a bound that turn it around, and nowhere else: `no more than`.
+/// Words directly before a bound that turn it around: `no more than`.
 const NEGATIONS: [&str; 2] = ["no", "kein"];
-/// Words that do so directly before a bound; elsewhere in its clause, it is open what they deny: `it never sinks into the floor by more than`.
+/// Words anywhere in the clause before a bound that do: `it never swings beyond`.
 const VERB_NEGATIONS: [&str; 10] =
     ["not", "never", "cannot", "nicht", "nie", "niemals", "jamais", "nunca", "mai", "pas"];
+/// Words before a bound of a difference, which is another number than what is compared: `sinks by more than 1 cm`.
+const OF_DIFFERENCE: [&str; 3] = ["by", "um", "de"];
+/// Words before a bound of a result. In prose, they name a setting: `within 5 s, it is wrong by 5 %`.
+const WITHIN: [&str; 4] = ["within", "innerhalb von", "binnen", "en moins de"];
 /// The most characters before a number that are read.
 const CLAUSE: usize = 100;
 
 /// The side on which the bound lies that the words before a number state: `at least`, `later than`, `never more than`.
 fn side_of_bound(before: &str, languages: Languages) -> Option<BoundSide> {
+    if WITHIN.iter().any(|word| ends_with(before, word)) {
+        return Some(BoundSide::Below);
+    }
     let phrase = |list: WordList| last_word(before, list, languages);
     let (side, words) = match (phrase(WordList::LowerBound), phrase(WordList::UpperBound)) {
         (Some(lower), Some(upper)) if lower.len() > upper.len() => (BoundSide::Above, lower),
@@ -177,13 +185,14 @@ fn side_of_bound(before: &str, languages: Languages) -> Option<BoundSide> {
         (None, None) => comparative(before)?,
     };
     let rest = before.strip_suffix(words)?.trim_end();
-    let directly = |list: &[&str]| list.iter().any(|word| ends_with(rest, word));
-    let negated = directly(&NEGATIONS) || directly(&VERB_NEGATIONS) || rest.ends_with("n't");
-    let clause = rest.rsplit([',', ';', ':', '.']).next().unwrap_or(rest);
-    let mut of_clause = clause.split(|c: char| !c.is_alphanumeric());
-    if !negated && (clause.contains("n't") || of_clause.any(|word| VERB_NEGATIONS.contains(&word))) {
+    if OF_DIFFERENCE.iter().any(|word| ends_with(rest, word)) {
         return None;
     }
+    let clause = rest.rsplit([',', ';', ':', '.']).next().unwrap_or(rest);
+    let mut of_clause = clause.split(|c: char| !c.is_alphanumeric());
+    let negated = NEGATIONS.iter().any(|word| ends_with(rest, word))
+        || clause.contains("n't")
+        || of_clause.any(|word| VERB_NEGATIONS.contains(&word));
     Some(match (side, negated) {
         (BoundSide::Above, false) | (BoundSide::Below, true) => BoundSide::Above,
         _ => BoundSide::Below,
