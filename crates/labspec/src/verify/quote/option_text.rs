@@ -138,6 +138,7 @@ fn stated_range(q: &Quantity, before: &str, languages: Languages) -> Option<(f64
     let states = |words: WordList| last_word(before, words, languages).is_some();
     let is_about = [WordList::Approximate, WordList::SlightlyLess].into_iter().any(states);
     let Quoted { value, half_unit, form, .. } = q.quoted;
+    let is_share = q.unit.as_ref().is_some_and(|unit| unit.percentage().is_some());
     let is_within = WITHIN.iter().any(|word| ends_with(before, word));
     match (q.refused.or(is_within.then_some(BOUND)), form) {
         (None, NumberForm::Range(a, b) | NumberForm::PlusMinus(a, b)) => Some((a, b)),
@@ -145,7 +146,7 @@ fn stated_range(q: &Quantity, before: &str, languages: Languages) -> Option<(f64
             let off = half_unit.max(value.abs() * if is_about { ABOUT } else { PRINTED });
             Some((value - off, value + off))
         }
-        (Some(_), NumberForm::Plain(_)) => Some(match side_of_bound(before, languages)? {
+        (Some(_), NumberForm::Plain(_)) => Some(match side_of_bound(before, is_share, languages)? {
             BoundSide::Above => (value, f64::INFINITY),
             BoundSide::Below => (f64::NEG_INFINITY, value),
         }),
@@ -165,7 +166,8 @@ const NEGATIONS: [&str; 2] = ["no", "kein"];
 /// Words anywhere in the clause before a bound that do: `it never swings beyond`.
 const VERB_NEGATIONS: [&str; 10] =
     ["not", "never", "cannot", "nicht", "nie", "niemals", "jamais", "nunca", "mai", "pas"];
-/// Words before a bound of a difference, which is another number than what is compared: `sinks by more than 1 cm`.
+/// Words before a bound of a difference, which is another number than what is compared: `sinks by more than 1 cm`. A difference in percent is
+/// compared as one.
 const OF_DIFFERENCE: [&str; 3] = ["by", "um", "de"];
 /// Words before a bound of a result. In prose, they name a setting: `within 5 s, it is wrong by 5 %`.
 const WITHIN: [&str; 4] = ["within", "innerhalb von", "binnen", "en moins de"];
@@ -173,7 +175,7 @@ const WITHIN: [&str; 4] = ["within", "innerhalb von", "binnen", "en moins de"];
 const CLAUSE: usize = 100;
 
 /// The side on which the bound lies that the words before a number state: `at least`, `later than`, `never more than`.
-fn side_of_bound(before: &str, languages: Languages) -> Option<BoundSide> {
+fn side_of_bound(before: &str, is_share: bool, languages: Languages) -> Option<BoundSide> {
     if WITHIN.iter().any(|word| ends_with(before, word)) {
         return Some(BoundSide::Below);
     }
@@ -185,7 +187,7 @@ fn side_of_bound(before: &str, languages: Languages) -> Option<BoundSide> {
         (None, None) => comparative(before)?,
     };
     let rest = before.strip_suffix(words)?.trim_end();
-    if OF_DIFFERENCE.iter().any(|word| ends_with(rest, word)) {
+    if !is_share && OF_DIFFERENCE.iter().any(|word| ends_with(rest, word)) {
         return None;
     }
     let clause = rest.rsplit([',', ';', ':', '.']).next().unwrap_or(rest);
