@@ -39,9 +39,11 @@ const POWER: &[(usize, i32)] = &[(KG, 1), (M, 2), (S, -3)];
 const PRESSURE: &[(usize, i32)] = &[(KG, 1), (M, -1), (S, -2)];
 
 /// The symbols of units, case-sensitive, and names in scripts without capital letters.
-const UNITS: [UnitRow; 52] = [
+const UNITS: [UnitRow; 53] = [
     UnitRow("rad", 1.0, ANGLES, true),
     UnitRow("deg", PI / 180.0, ANGLES, false),
+    // Degrees in German, not 10⁹ radians.
+    UnitRow("Grad", PI / 180.0, ANGLES, false),
     UnitRow("°", PI / 180.0, ANGLES, false),
     UnitRow("rev", 2.0 * PI, ANGLES, false),
     UnitRow("m", 1.0, LENGTH, true),

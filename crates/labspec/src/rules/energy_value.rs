@@ -51,7 +51,14 @@ struct Labelled<'l> {
 pub(crate) fn check_energies(observed: &mut ObservedLab<'_>, findings: &mut Vec<Finding>) {
     let ready = observed.bench.ready;
     let mut labels = labelled(ready.lab, &ready.model);
-    if labels.is_empty() || !moves_as_one(&ready.model) {
+    if !moves_as_one(&ready.model) {
+        return;
+    }
+    // The energy of a named part is that of the scene only if the scene has one part.
+    if bodies_with_mass(&ready.model) > 1 || geoms_of_moving_bodies(&ready.model) > 1 {
+        labels.retain(|label| !names_part(label.label.as_str()));
+    }
+    if labels.is_empty() {
         return;
     }
     let Some((steps, _)) = observed.bench.steps(observed.length) else { return };
@@ -103,6 +110,19 @@ fn moves_as_one(model: &Model) -> bool {
     roots.len() == 1
 }
 
+fn bodies_with_mass(model: &Model) -> usize {
+    model.body_mass.iter().skip(1).filter(|mass| **mass > 0.0).count()
+}
+
+fn geoms_of_moving_bodies(model: &Model) -> usize {
+    model.geom_bodyid.iter().filter(|body| **body > 0).count()
+}
+
+/// Whether a label has more than the name of the energy.
+fn names_part(label: &str) -> bool {
+    !words_of(label).iter().all(|word| Energy::is_word(word) || word == "total")
+}
+
 /// Appends the values of the labels at the current state.
 fn sample(session: &mut Session<'_>, labels: &mut [Labelled<'_>]) {
     session.refresh();
@@ -136,11 +156,21 @@ fn compared(one: &Labelled<'_>) -> Option<Finding> {
     let range = samples.iter().map(|(y, _)| (y - y0).abs()).fold(0.0, f64::max);
     let largest = samples.iter().map(|(_, e)| (e - e0).abs()).fold(0.0, f64::max);
     let is_multiple = samples.iter().all(|(y, e)| (y - y0 - factor * (e - e0)).abs() <= SAME * range);
-    let is_other = (factor - 1.0).abs() > OTHER && factor.is_finite() && range > 1e-9 && largest > 1e-9;
+    // Another rule reports a metric prefix that the label has and the expression not.
+    let power = factor.abs().log10();
+    let is_prefix = (power - power.round()).abs() < 1e-6 && power.round() != 0.0;
+    let is_other =
+        (factor - 1.0).abs() > OTHER && !is_prefix && factor.is_finite() && range > 1e-9 && largest > 1e-9;
     if !is_multiple || !is_other {
         return None;
     }
-    let (y, e) = samples.iter().copied().max_by(|a, b| (a.1 - e0).abs().total_cmp(&(b.1 - e0).abs()))?;
+    // From the start: a potential energy may have any zero.
+    let (y1, e1) = match one.energy {
+        Energy::Kinetic => (0.0, 0.0),
+        Energy::Potential => samples.first().copied()?,
+    };
+    let changes = samples.iter().map(|(y, e)| (y - y1, e - e1));
+    let (y, e) = changes.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
     let name = one.energy.name();
     let factor = crate::verify::significant(factor);
     let [y, e] = [y, e].map(crate::verify::significant);
@@ -150,7 +180,10 @@ fn compared(one: &Labelled<'_>) -> Option<Finding> {
             one.label.span(),
             format!("the values of this label are {factor} times the {name} energy of the scene"),
         )
-        .why(format!("in a run of the lab, it shows {y} J where the {name} energy of the engine is {e} J, and the factor is the same in {} samples", samples.len()))
+        .why(match one.energy {
+            Energy::Kinetic => format!("in a run of the lab, it is {y} J where the engine has {e} J, and the factor is the same in {} samples", samples.len()),
+            Energy::Potential => format!("in a run of the lab, it changes by {y} J where that of the engine changes by {e} J, and the factor is the same in {} samples", samples.len()),
+        })
         .help(format!("correct the expression, or read `lib.energy().{name}`")),
     )
 }
@@ -172,7 +205,7 @@ mod tests {
         for (label, expr, factor) in [
             ("kinetic energy (J)", "model.body_mass[1] * data.qvel[2] ** 2", "2"),
             ("kinetic energy of the ball", "0.5 * data.qvel[2] ** 2", "0.5"),
-            ("kinetische Energie (mJ)", "0.5 * model.body_mass[1] * data.qvel[2] ** 2", "0.001"),
+            ("kinetische Energie (mJ)", "1000 * model.body_mass[1] * data.qvel[2] ** 2", "2"),
             ("potential energy (J)", "-model.body_mass[1] * 9.81 * data.qpos[2]", "-1"),
             ("potential energy (J)", "model.body_mass[1] * 1.62 * data.qpos[2]", "0.165138"),
         ] {

@@ -30,7 +30,7 @@ fn check_controls(lab: &Lab, model: &Model, findings: &mut Vec<Finding>) {
     if model.opt.gravity[2] >= 0.0 {
         return;
     }
-    for control in &lab.controls {
+    for control in lab.controls.iter().filter(|control| !is_meant(control.label.as_str())) {
         let is_up = |text: &&Text| is_upward(text.as_str(), control);
         let Some(text) = control.action().and_then(|a| a.set.as_ref()).filter(is_up).or_else(|| {
             let statements = match &control.kind {
@@ -50,6 +50,14 @@ fn check_controls(lab: &Lab, model: &Model, findings: &mut Vec<Finding>) {
             .help(format!("write `{GRAVITY} = -value` in `apply`, or give the control values below 0")),
         );
     }
+}
+
+/// Whether a label says that something acts upward.
+fn is_meant(label: &str) -> bool {
+    let words = super::label_names_another::words_of(label);
+    words.iter().any(|word| {
+        ["up", "upward", "upwards", "net", "oben", "aufwärts", "haut", "arriba"].contains(&word.as_str())
+    })
 }
 
 /// Whether `set` names the gravity, and no value of the control is below 0.

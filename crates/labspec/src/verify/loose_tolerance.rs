@@ -4,7 +4,7 @@ use super::bound::BoundVerify;
 use super::format::significant;
 use super::option_numbers::{constant, is_below, magnitude};
 use super::outcome::MeasuredRuns;
-use super::value_of::{states_number, value_of};
+use super::value_of::{states_number, value_of, words_of};
 use crate::finding::Finding;
 use crate::language::Languages;
 use crate::rules;
@@ -22,7 +22,7 @@ const EQUAL: f64 = 0.03;
 const NEARLY_EQUAL: f64 = 0.25;
 const NOISE: f64 = 0.02;
 /// Words of nearly equal values, beside those before approximate numbers.
-const NEARLY: [&str; 12] = [
+const NEARLY: [&str; 46] = [
     "hardly",
     "practically",
     "virtually",
@@ -31,10 +31,44 @@ const NEARLY: [&str; 12] = [
     "similarly",
     "slightly",
     "little",
+    "bit",
     "comparable",
+    "much the same",
+    "close",
+    "few",
+    "order",
+    "approximation",
+    "eye",
+    "weakly",
+    "weak",
+    "small",
+    "noticeably",
+    "noticeable",
+    "rough",
+    "roughly",
+    "essentially",
+    "more or less",
     "kaum",
     "praktisch",
+    "näherungsweise",
+    "wenig",
+    "ähnlich",
+    "so gut wie",
+    "fast",
+    "etwa",
+    "ungefähr",
+    "annähernd",
+    "merklich",
     "presque",
+    "guère",
+    "peu",
+    "voisin",
+    "voisine",
+    "voisines",
+    "casi",
+    "quasi",
+    "poco",
+    "similares",
 ];
 
 /// Two terms that a condition calls equal.
@@ -57,11 +91,13 @@ enum Tolerance {
 pub(super) fn check_tolerance(
     bound: &BoundVerify<'_>,
     outcome: &MeasuredRuns,
+    question: &Text,
     (stated, condition): (&Text, &Text),
     findings: &mut Vec<Finding>,
 ) {
     let languages = bound.stage().languages();
-    for Equality { a, b, tolerance } in equalities(&parse_expression(&condition.value).tree) {
+    let tree = parse_expression(&condition.value).tree;
+    for Equality { a, b, tolerance } in equalities(&tree) {
         let [x, y] = [&a, &b].map(|e| value_of(bound, outcome, e, condition));
         let (Some(x), Some(y)) = (x, y) else { continue };
         let tolerance = match tolerance {
@@ -71,9 +107,14 @@ pub(super) fn check_tolerance(
         let (size, difference) = (x.abs().max(y.abs()), (x - y).abs());
         let is_loose = tolerance > MAX_FRACTION * size && difference > MIN_DIFFERENCE * tolerance;
         // A text with a number says itself how equal they are.
-        let most = if is_approximate(stated.as_str(), languages) { NEARLY_EQUAL } else { EQUAL };
+        let is_nearly = [stated, question].iter().any(|text| is_approximate(text.as_str(), languages));
+        let most = if is_nearly { NEARLY_EQUAL } else { EQUAL };
         let differs = difference > most * size
             && difference > NOISE * tolerance
+            // Beside 0, any value differs by 100 %. A condition with the order of both says that they differ.
+            && x != 0.0
+            && y != 0.0
+            && !orders(&tree, &a, &b)
             && !states_number(bound, outcome, &a, (stated, condition));
         if !is_loose && !differs {
             continue;
@@ -104,11 +145,7 @@ pub(super) fn check_tolerance(
 
 /// Whether a text says that it is about values that are nearly the same.
 fn is_approximate(text: &str, languages: Languages) -> bool {
-    let words: Vec<String> = text
-        .split(|c: char| !c.is_alphanumeric())
-        .filter(|word| !word.is_empty())
-        .map(str::to_lowercase)
-        .collect();
+    let words = words_of(text);
     let text = format!(" {} ", words.join(" "));
     let approximate = languages.words_of(|language| language.approximate);
     let mut all = approximate.chain(languages.words_of(|language| language.slightly_less)).chain(NEARLY);
@@ -133,6 +170,19 @@ fn equalities(e: &Expr) -> Vec<Equality> {
             inner.and_then(|inner| equality(inner, tolerance)).into_iter().collect()
         }
         _ => Vec::new(),
+    }
+}
+
+/// Whether a condition compares two terms directly: `a > b`.
+fn orders(e: &Expr, a: &Expr, b: &Expr) -> bool {
+    match &e.kind {
+        ExprKind::Logical { op: LogicalOp::And, left, right } => orders(left, a, b) || orders(right, a, b),
+        ExprKind::Binary { op, left, right } if is_below(*op, false).is_some() => {
+            let sides = [print(left), print(right)];
+            let of_both = [print(a), print(b)];
+            sides == of_both || sides.iter().rev().eq(of_both.iter())
+        }
+        _ => false,
     }
 }
 
@@ -177,6 +227,9 @@ pub(super) mod tests {
             ("is about the same", "abs(wide.T / small.T - 1) < 0.2"),
             ("changes by less than 20 %", "abs(wide.T / small.T - 1) < 0.2"),
             ("becomes longer", "wide.T - small.T > 0.1"),
+            ("becomes longer", "wide.T > small.T && abs(wide.T - small.T) < 0.3"),
+            ("differs by less than a second", "abs(wide.T - small.T) < 0.3"),
+            ("ändert sich kaum", "abs(wide.T - small.T) < 0.3"),
         ] {
             assert_eq!(found(option, condition, "loose-tolerance"), [""; 0], "{option}: {condition}");
         }

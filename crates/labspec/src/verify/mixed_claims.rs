@@ -16,6 +16,13 @@ pub(super) fn check_dimensions(bound: &BoundVerify<'_>, verify: &Verify, finding
         let claim = bound.claim(text).filter(|_| !is_undecided(text));
         let Some(program) = claim.as_ref().and_then(|claim| claim.program.as_ref()) else { continue };
         let clashes = program.measured(&names, &units.given).clashes;
-        findings.extend(clashes.iter().map(|clash| clash_finding(text, clash, Severity::Warning)));
+        findings.extend(clashes.iter().map(|clash| of_claim(clash_finding(text, clash, Severity::Warning))));
     }
+}
+
+/// The finding with the reason and the help for a claim.
+fn of_claim(finding: Finding) -> Finding {
+    finding
+        .why("neither of the two can be larger than the other one, so that the claim says nothing about what is measured")
+        .help("check the names of the measures: one of the two may be another one than intended")
 }

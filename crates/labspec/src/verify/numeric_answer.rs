@@ -54,7 +54,7 @@ pub(super) fn check_number(
     };
     let gives = measured.as_ref().map(written);
     let is_fraction = measured.as_ref().is_some_and(|d| d.is_number() && d.factor == 1.0);
-    if let Some(reason) = contradicts_question(bound, text, question, asked, findings) {
+    if let Some(reason) = contradicts_question(bound, &outcomes.nominal, text, question, asked, findings) {
         return Answer::failed(reason);
     }
     let unit = quote::answer_unit(asked, measured);
@@ -104,6 +104,7 @@ pub(super) fn check_number(
 /// reason.
 fn contradicts_question(
     bound: &BoundVerify<'_>,
+    outcome: &MeasuredRuns,
     text: &Text,
     question: &Question,
     unit: Option<&str>,
@@ -113,7 +114,7 @@ fn contradicts_question(
     let is_percentage = unit.or(in_text.as_deref()).is_some_and(|unit| quote::percentage(unit).is_some());
     let text_of = |name: &str| bound.text_of_measure(name);
     let change = is_percentage.then(|| check_asked_change(&question.q, text, &text_of, findings)).flatten();
-    change.or_else(|| check_ratio_order(bound, &question.q, text, findings))
+    change.or_else(|| check_ratio_order(bound, outcome, &question.q, text, findings))
 }
 
 /// The unit in which the text of a question asks: without a unit beside the field, the student answers in it. `None` for pure numbers

@@ -126,9 +126,9 @@ impl OptionJudgement<'_> {
             .or_else(|| check_stated_numbers(bound, nominal, question, &stated, findings));
         if wrong.is_none() {
             for both in &stated {
-                check_tolerance(bound, nominal, *both, findings);
+                check_tolerance(bound, nominal, &question.q, *both, findings);
                 check_one_sided(bound, nominal, *both, findings);
-                check_one_sample(bound, *both, findings);
+                check_one_sample(bound, nominal, *both, findings);
             }
         }
         wrong

@@ -3,28 +3,37 @@
 
 use super::bound::BoundVerify;
 use super::option_numbers::constant;
+use super::outcome::MeasuredRuns;
+use super::{quote, units};
 use crate::finding::Finding;
 use crate::json::read::named;
 use crate::rules;
 use crate::source::Text;
 use labspec_expr::ast::{BinaryOp, Expr, ExprKind};
+use labspec_expr::dimension::Dimension;
 use labspec_expr::{parse_expression, print};
 
 /// Reports a question whose expression is the inverse of the ratio that it asks for. Returns the reason.
 pub(super) fn check_ratio_order(
     bound: &BoundVerify<'_>,
+    outcome: &MeasuredRuns,
     question: &Text,
     expr: &Text,
     findings: &mut Vec<Finding>,
 ) -> Option<String> {
     let runs: Vec<&str> = bound.runs.iter().map(|run| run.name).collect();
-    let (first, second) = asked_order(question.as_str(), &runs)?;
+    let Order { first, second, quantity } = asked_order(question.as_str(), &runs)?;
     let tree = parse_expression(expr.as_str()).tree;
     let (above, below) = ratio_of_runs(&tree)?;
     if (run_of(above), run_of(below)) != (Some(second), Some(first)) {
         return None;
     }
     let [a, b] = [above, below].map(print);
+    // "How many times as fast" asks for the inverse of a ratio of times.
+    let measured = units::of_claim(bound, outcome, &Text::derived(a.clone(), expr.span()))?;
+    if !measured.is_exact() || !quantity.iter().any(|dimension| dimension.agrees(&measured)) {
+        return None;
+    }
     let message = format!(
         "the question asks how many times as large it is in {} as in {}, but the expression is `{a} / {b}`",
         named(first),
@@ -39,8 +48,15 @@ pub(super) fn check_ratio_order(
     Some(message)
 }
 
+/// The two runs of a question for a ratio, and the dimensions that its adjective names.
+struct Order<'r> {
+    first: &'r str,
+    second: &'r str,
+    quantity: Vec<Dimension>,
+}
+
 /// The two runs of `how many times as … FIRST as … SECOND`, and of `how many times longer … FIRST than … SECOND`.
-fn asked_order<'r>(question: &str, runs: &[&'r str]) -> Option<(&'r str, &'r str)> {
+fn asked_order<'r>(question: &str, runs: &[&'r str]) -> Option<Order<'r>> {
     let lower = question.to_lowercase();
     let (_, asked) = lower.split_once("how many times ")?;
     let asked = asked.split(['?', '.', ';']).next().unwrap_or(asked);
@@ -55,7 +71,13 @@ fn asked_order<'r>(question: &str, runs: &[&'r str]) -> Option<(&'r str, &'r str
         found.next().is_none().then_some(*first)
     };
     let (first, second) = (only(one)?, only(other)?);
-    (first != second).then_some((first, second))
+    let adjective = asked.strip_prefix("as ").unwrap_or(asked).split(|c: char| !c.is_alphabetic()).next()?;
+    let is_large = !["short", "shorter", "slow", "slower", "earlier"].contains(&adjective);
+    (first != second && is_large).then(|| Order {
+        first,
+        second,
+        quantity: quote::named_quantities(adjective),
+    })
 }
 
 /// The two terms of a quotient of one measure in two runs.
@@ -86,7 +108,8 @@ mod tests {
 
     #[test]
     fn a_question_names_two_runs_in_their_order() {
-        let order = |text: &str| asked_order(text, &["earth", "moon"]);
+        let order =
+            |text: &str| asked_order(text, &["earth", "moon"]).map(|order| (order.first, order.second));
         for text in [
             "How many times as long does it fall on the moon as on the earth?",
             "On both, how many times longer is it on the Moon than on the Earth?",

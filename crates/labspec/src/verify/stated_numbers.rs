@@ -8,6 +8,7 @@ use super::option_numbers::{constant, is_below, magnitude};
 use super::outcome::MeasuredRuns;
 use super::quote::{OptionNumber, conversion, option_ratio, quantities_in};
 use super::units;
+use super::value_of::shares_number;
 use crate::bind::given_by;
 use crate::finding::Finding;
 use crate::json::Scalar;
@@ -113,11 +114,22 @@ fn contradiction(
         stated.retain(|q| !given.iter().any(|number| number.is(q)));
         return wrong_unit(&stated, &found.compared).or_else(|| wrong_ratio(text, &found));
     };
-    if about_it.iter().any(|q| is_measured(q, &found) || given.iter().any(|number| number.is(q))) {
+    // The bound of a difference is a number of the condition: "at most 0.7 s longer" beside `b.t - a.t < 0.7`.
+    let is_tested = |q: &OptionNumber| is_difference(condition) && shares_number(&q.text, &condition.value);
+    if about_it
+        .iter()
+        .any(|q| is_measured(q, &found) || is_tested(q) || given.iter().any(|number| number.is(q)))
+    {
         return None;
     }
     let nearest = found.compared.iter().find_map(|term| term.in_unit_of(first))?;
     Some(format!("the text says {}, but the condition compares {}", first.text, significant(nearest)))
+}
+
+/// Whether a condition compares two measured terms: their difference, or one with a part or a multiple of the other.
+fn is_difference(condition: &Text) -> bool {
+    let mut terms = Vec::new();
+    terms_of_condition(&parse_expression(&condition.value).tree, &mut terms).is_some() && terms.len() > 1
 }
 
 /// Whether a stated number is a measured one, or a difference or a sum of two. A bound is one of what the condition compares

@@ -1,6 +1,7 @@
 //! The value of a part of a condition, and whether a text states a number about it.
 
 use super::bound::BoundVerify;
+use super::condition::numbers_in;
 use super::outcome::MeasuredRuns;
 use super::quote::quantities_in;
 use super::units;
@@ -20,14 +21,70 @@ pub(super) fn value_of(
     Some(found).filter(|x| x.is_finite())
 }
 
-/// Whether a text states a number that may be about a part of a condition: a part in percent, a pure number, or one of the same dimension.
-/// Others are settings.
+/// Words with which a text states how large a difference is: `within a tenth of a second`, `less than five percent`.
+const SIZES: [&str; 40] = [
+    "second",
+    "seconds",
+    "sekunde",
+    "sekunden",
+    "seconde",
+    "secondes",
+    "segundo",
+    "segundos",
+    "metre",
+    "metres",
+    "meter",
+    "meters",
+    "mètre",
+    "mètres",
+    "centimetre",
+    "centimetres",
+    "millimetre",
+    "millimetres",
+    "zentimeter",
+    "millimeter",
+    "degree",
+    "degrees",
+    "grad",
+    "degré",
+    "degrés",
+    "percent",
+    "prozent",
+    "tenth",
+    "tenths",
+    "hundredth",
+    "hundredths",
+    "thousandth",
+    "third",
+    "quarter",
+    "fifth",
+    "twentieth",
+    "zehntel",
+    "hundertstel",
+    "half",
+    "dixième",
+];
+
+/// The words of a text in lower case.
+pub(super) fn words_of(text: &str) -> Vec<String> {
+    let words = text.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
+    words.map(str::to_lowercase).collect()
+}
+
+/// Whether a text states a number that may be about a part of a condition: a part in percent, a pure number, one of the same dimension,
+/// or one in words. Others are settings.
 pub(super) fn states_number(
     bound: &BoundVerify<'_>,
     outcome: &MeasuredRuns,
     part: &Expr,
     (stated, condition): (&Text, &Text),
 ) -> bool {
+    if words_of(stated.as_str()).iter().any(|word| SIZES.contains(&word.as_str())) {
+        return true;
+    }
+    if shares_number(stated.as_str(), condition.as_str()) {
+        return true;
+    }
     let text = Text::derived(print(part), condition.span());
     let measured = units::of_claim(bound, outcome, &text);
     quantities_in(stated.as_str(), bound.stage().languages()).iter().any(|q| {
@@ -35,4 +92,37 @@ pub(super) fn states_number(
         let dimension = q.unit.dimension.filter(|d| !d.is_number() || d.has_angle());
         is_share || dimension.zip(measured).is_none_or(|(a, b)| a.agrees(&b))
     })
+}
+
+/// Factors between a number of a condition and that of its text: percent, and metric prefixes.
+const FACTORS: [f64; 3] = [1.0, 100.0, 1000.0];
+
+/// Whether a text has a number of its condition, perhaps in percent or with a metric prefix: what the condition tests is then what the text says.
+pub(super) fn shares_number(stated: &str, condition: &str) -> bool {
+    let of_text = numbers_in(stated);
+    let is_same = |x: f64, y: f64| (x - y).abs() <= 1e-9 * y.abs();
+    numbers_in(condition).into_iter().filter(|x| *x != 0.0).any(|x| {
+        // `1.15 *` is 15 % more.
+        let changes = [(x - 1.0) * 100.0, (1.0 - x) * 100.0];
+        let all = FACTORS.map(|factor| factor * x).into_iter().chain(changes);
+        all.into_iter().any(|x| of_text.iter().any(|y| *y != 0.0 && is_same(x, *y)))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_of_the_condition_is_that_of_the_text() {
+        for (text, condition) in [
+            ("It grows by less than 0.3 s.", "b.t - a.t < 0.3"),
+            ("It is more than 15 % longer.", "b.t > 1.15 * a.t"),
+            ("20 cm are missing at least.", "z1 < z0 - 0.2"),
+            ("They differ by less than 5 %.", "abs(b.t / a.t - 1) < 0.05"),
+        ] {
+            assert!(shares_number(text, condition), "{text}");
+        }
+        assert!(!shares_number("After 0.5 s both have the same speed.", "abs(b.v - a.v) < 0.3"));
+    }
 }

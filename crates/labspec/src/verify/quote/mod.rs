@@ -44,7 +44,7 @@ pub(super) use check_quote::{check_quote, places_of_quote};
 pub(super) use heading::operation_in_heading;
 pub(super) use markdown_cell::unit_of_head;
 pub use number::{NumberForm, Quoted, Style};
-pub(super) use option_ratio::{DECREASES, INCREASES, option_ratio};
+pub(super) use option_ratio::{DECREASES, INCREASES, named_quantities, option_ratio};
 pub(super) use option_text::{OptionNumber, SMALLER, option_text, quantities_in};
 pub use printed::{OutputBlock, OutputMatch, numbers_in_outputs};
 pub use quote_claim::{OtherValue, QuoteOutcome, QuoteState};

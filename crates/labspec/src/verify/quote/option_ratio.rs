@@ -228,7 +228,7 @@ fn is_factor(before: &str) -> bool {
 }
 
 /// The dimensions of the quantities that the words of a text name.
-fn named_quantities(text: &str) -> Vec<Dimension> {
+pub(in crate::verify) fn named_quantities(text: &str) -> Vec<Dimension> {
     let named = QUANTITY_WORDS.iter().filter(|(word, _)| split_words(text).any(|w| w == *word));
     named.flat_map(|(_, units)| units.iter().filter_map(|unit| units::parse(unit))).collect()
 }
