@@ -243,7 +243,8 @@ fn loss(e: &Expr) -> Option<[String; 2]> {
             let ExprKind::Binary { op: BinaryOp::Divide, left: a, right: b } = &right.kind else {
                 return None;
             };
-            (measure(a, true).is_some() && measure(b, true).is_some()).then(|| [print(a), print(b)])
+            (measure(a, true).is_some() && (measure(b, true).is_some() || constant(b).is_some()))
+                .then(|| [print(a), print(b)])
         }
         _ => None,
     }
@@ -282,6 +283,7 @@ mod tests {
             ("loses about 35 %", "100 * apex / z"),
             ("91 % of the energy is left", "100 * (1 - e1 / e0)"),
             ("keeps 91 %", "1 - a.e1 / a.e0"),
+            ("91 % is left", "100 * (1 - a.e1 / 0.36)"),
         ] {
             assert!(is_reported(quote, expr), "{quote}: {expr}");
         }

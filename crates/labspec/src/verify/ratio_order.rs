@@ -59,7 +59,8 @@ struct Order<'r> {
 fn asked_order<'r>(question: &str, runs: &[&'r str]) -> Option<Order<'r>> {
     let lower = question.to_lowercase();
     let (_, asked) = lower.split_once("how many times ")?;
-    let asked = asked.split(['?', '.', ';']).next().unwrap_or(asked);
+    let asked = asked.split(['?', ';']).next().unwrap_or(asked);
+    let asked = asked.split(". ").next().unwrap_or(asked);
     let (one, other) = match asked.strip_prefix("as ") {
         Some(rest) => rest.split_once(" as ")?,
         None => asked.split_once(" than ")?,
@@ -112,6 +113,7 @@ mod tests {
             |text: &str| asked_order(text, &["earth", "moon"]).map(|order| (order.first, order.second));
         for text in [
             "How many times as long does it fall on the moon as on the earth?",
+            "How many times as long is it on the moon (1.62 m/s²) as on the earth?",
             "On both, how many times longer is it on the Moon than on the Earth?",
         ] {
             assert_eq!(order(text), Some(("moon", "earth")), "{text}");

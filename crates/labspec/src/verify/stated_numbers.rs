@@ -149,7 +149,8 @@ fn is_measured(stated: &OptionNumber, found: &Measurements) -> bool {
 /// A number that is that of the simulation, with a unit of another dimension. A number of one digit is near too many others.
 fn wrong_unit(stated: &[OptionNumber], compared: &[Measurement]) -> Option<String> {
     let [q] = stated else { return None };
-    if q.high - q.low > MAX_WIDTH * q.low.abs().max(q.high.abs()) {
+    let is_bound = !(q.low.is_finite() && q.high.is_finite());
+    if is_bound || q.high - q.low > MAX_WIDTH * q.low.abs().max(q.high.abs()) {
         return None;
     }
     let differs = q.unit.dimension.is_some_and(|d| compared.iter().all(|term| !d.agrees(&term.dimension)));

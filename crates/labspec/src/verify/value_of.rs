@@ -79,19 +79,27 @@ pub(super) fn states_number(
     part: &Expr,
     (stated, condition): (&Text, &Text),
 ) -> bool {
-    if words_of(stated.as_str()).iter().any(|word| SIZES.contains(&word.as_str())) {
-        return true;
-    }
-    if shares_number(stated.as_str(), condition.as_str()) {
-        return true;
-    }
     let text = Text::derived(print(part), condition.span());
     let measured = units::of_claim(bound, outcome, &text);
-    quantities_in(stated.as_str(), bound.stage().languages()).iter().any(|q| {
-        let is_share = q.unit.percentage().is_some();
-        let dimension = q.unit.dimension.filter(|d| !d.is_number() || d.has_angle());
-        is_share || dimension.zip(measured).is_none_or(|(a, b)| a.agrees(&b))
-    })
+    let (about_it, settings): (Vec<_>, Vec<_>) =
+        quantities_in(stated.as_str(), bound.stage().languages()).into_iter().partition(|q| {
+            let is_share = q.unit.percentage().is_some();
+            let dimension = q.unit.dimension.filter(|d| !d.is_number() || d.has_angle());
+            is_share || dimension.zip(measured).is_none_or(|(a, b)| a.agrees(&b))
+        });
+    let mut text = stated.as_str().to_string();
+    settings.iter().for_each(|q| text = text.replace(&q.text, ""));
+    !about_it.is_empty() || states_size(&text) || shares_number(&text, condition.as_str())
+}
+
+/// Words before a time that is a setting: `after a second`.
+const AFTER: [&str; 5] = ["after", "in", "at", "nach", "après"];
+
+/// Whether a text says in words how large a difference is.
+fn states_size(text: &str) -> bool {
+    let words = words_of(text);
+    let is_setting = |i: usize| words.iter().take(i).rev().take(2).any(|word| AFTER.contains(&word.as_str()));
+    words.iter().enumerate().any(|(i, word)| SIZES.contains(&word.as_str()) && !is_setting(i))
 }
 
 /// Factors between a number of a condition and that of its text: percent, and metric prefixes.
@@ -99,7 +107,7 @@ const FACTORS: [f64; 3] = [1.0, 100.0, 1000.0];
 
 /// Whether a text has a number of its condition, perhaps in percent or with a metric prefix: what the condition tests is then what the text says.
 pub(super) fn shares_number(stated: &str, condition: &str) -> bool {
-    let of_text = numbers_in(stated);
+    let of_text = numbers_in(&with_points(stated));
     let is_same = |x: f64, y: f64| (x - y).abs() <= 1e-9 * y.abs();
     numbers_in(condition).into_iter().filter(|x| *x != 0.0).any(|x| {
         // `1.15 *` is 15 % more.
@@ -107,6 +115,18 @@ pub(super) fn shares_number(stated: &str, condition: &str) -> bool {
         let all = FACTORS.map(|factor| factor * x).into_iter().chain(changes);
         all.into_iter().any(|x| of_text.iter().any(|y| *y != 0.0 && is_same(x, *y)))
     })
+}
+
+/// A text with a point in each decimal number: `0,3 s`.
+fn with_points(text: &str) -> String {
+    let chars: Vec<char> = text.chars().collect();
+    let is_digit = |i: Option<usize>| i.and_then(|i| chars.get(i)).is_some_and(char::is_ascii_digit);
+    let point =
+        |(i, c): (usize, &char)| match *c == ',' && is_digit(i.checked_sub(1)) && is_digit(Some(i + 1)) {
+            true => '.',
+            false => *c,
+        };
+    chars.iter().enumerate().map(point).collect()
 }
 
 #[cfg(test)]
@@ -120,9 +140,14 @@ mod tests {
             ("It is more than 15 % longer.", "b.t > 1.15 * a.t"),
             ("20 cm are missing at least.", "z1 < z0 - 0.2"),
             ("They differ by less than 5 %.", "abs(b.t / a.t - 1) < 0.05"),
+            ("Sie wächst um weniger als 0,3 s.", "b.t - a.t < 0.3"),
         ] {
             assert!(shares_number(text, condition), "{text}");
         }
+        assert!(
+            states_size("It grows by less than a tenth of a second.")
+                && !states_size("It is faster after a second.")
+        );
         assert!(!shares_number("After 0.5 s both have the same speed.", "abs(b.v - a.v) < 0.3"));
     }
 }

@@ -14,7 +14,7 @@ const MAX_LENGTH: usize = 2000;
 /// The unit in which a question asks, as it is written; `None` if its text names none.
 pub(crate) fn asked_unit(question: &str) -> Option<String> {
     let text: String = rendered(question).chars().take(MAX_LENGTH).collect();
-    counted(&text).or_else(|| at_the_end(&text))
+    counted(&text).or_else(|| at_the_end(&text)).or_else(|| between_commas(&text))
 }
 
 /// `How many milliseconds …`
@@ -43,6 +43,18 @@ fn at_the_end(text: &str) -> Option<String> {
         let start = text.rfind(&format!(" {word} "))?;
         let unit = text.get(start + word.len() + 2..)?.trim();
         is_known(unit).then(|| unit.to_string())
+    })
+}
+
+/// `At which angle, in degrees, does it turn round?`
+fn between_commas(text: &str) -> Option<String> {
+    let mut parts = text.split(", ").skip(1);
+    parts.find_map(|part| {
+        let (unit, _) = BEFORE_UNIT
+            .iter()
+            .find_map(|word| part.strip_prefix(&format!("{word} ")).map(|unit| (unit, word)))?;
+        let is_whole = !unit.contains(char::is_whitespace) && !unit.contains('?');
+        (is_whole && is_known(unit)).then(|| unit.to_string())
     })
 }
 
@@ -75,6 +87,7 @@ mod tests {
             ("How high does it rise [cm]", Some("cm")),
             ("Wie schnell ist es, in km/h?", Some("km/h")),
             ("What is its speed in $\\mathrm{m/s}$?", Some("m/s")),
+            ("At which angle, in degrees, does it turn round?", Some("degrees")),
             ("How many bounces are there?", None),
             ("How often does it bounce in a run?", None),
             ("What happens in the end?", None),
