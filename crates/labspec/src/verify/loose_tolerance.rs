@@ -100,6 +100,10 @@ pub(super) fn check_tolerance(
     for Equality { a, b, tolerance } in equalities(&tree) {
         let [x, y] = [&a, &b].map(|e| value_of(bound, outcome, e, condition));
         let (Some(x), Some(y)) = (x, y) else { continue };
+        // Beside 0, any value differs by 100 %: what is small is not known.
+        if x == 0.0 || y == 0.0 {
+            continue;
+        }
         let tolerance = match tolerance {
             Tolerance::Absolute(tolerance) => tolerance,
             Tolerance::Relative(tolerance) => tolerance * y.abs(),
@@ -111,9 +115,7 @@ pub(super) fn check_tolerance(
         let most = if is_nearly { NEARLY_EQUAL } else { EQUAL };
         let differs = difference > most * size
             && difference > NOISE * tolerance
-            // Beside 0, any value differs by 100 %. A condition with the order of both says that they differ.
-            && x != 0.0
-            && y != 0.0
+            // A condition with the order of both says that they differ.
             && !orders(&tree, &a, &b)
             && !states_number(bound, outcome, &a, (stated, condition));
         if !is_loose && !differs {

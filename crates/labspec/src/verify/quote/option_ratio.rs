@@ -158,6 +158,14 @@ fn is_denied(before: &str) -> bool {
     let clause = before.rsplit(['.', ',', ';', ':', '?', '!']).next().unwrap_or("");
     let words: Vec<&str> = clause.split_whitespace().collect();
     words.iter().rev().take(NEGATION_LENGTH + 1).any(|word| *word == "not" || word.ends_with("n't"))
+        || clause.contains("far from")
+}
+
+/// Whether a part is one of a unit: `a tenth of a second`.
+fn is_of_unit(behind: &str) -> bool {
+    let rest = behind.trim_start();
+    let whole = ["of a ", "of an ", "of one "].iter().find_map(|words| rest.strip_prefix(words));
+    whole.is_some_and(|whole| split_words(whole).next().is_some_and(|word| units::parse(word).is_some()))
 }
 
 /// The only ratio that an option states about a result; `None` where it states several, a bound, or other numbers.
@@ -201,7 +209,7 @@ pub(in crate::verify) fn option_ratio(option: &str) -> Option<OptionRatio> {
             .into_iter()
             .any(|list| last_word(before, list, Languages::ALL).is_some());
     let behind = folded.get(place.end..)?;
-    if is_bound || is_setting(before) || is_denied(before) {
+    if is_bound || is_setting(before) || is_denied(before) || is_of_unit(behind) {
         return None;
     }
     let may_be = readings(x, share, before, behind);
@@ -348,6 +356,8 @@ mod tests {
             "when gravity is doubled it falls faster",
             "longer, but not twice as long",
             "it isn't quite three times as long",
+            "it is far from being doubled",
+            "it grows by a tenth of a second",
         ] {
             assert_eq!(option_ratio(text), None, "{text}");
         }
