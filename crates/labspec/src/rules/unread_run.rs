@@ -62,14 +62,13 @@ fn check_runs(verify: &Verify, findings: &mut Vec<Finding>) {
 /// The names before a dot, and before an index with a dot behind it: `earth` of `earth.t` and of `earth[1].t`.
 fn heads(expr: &str) -> impl Iterator<Item = &str> {
     let is_part = |c: char| c.is_alphanumeric() || c == '_' || c == '$';
-    let dots = expr.match_indices('.').filter_map(move |(dot, _)| {
+    expr.match_indices('.').filter_map(move |(dot, _)| {
         let before = expr.get(..dot)?;
         let start = before.rfind(|c: char| !is_part(c)).map_or(0, |i| i + 1);
         let is_member = before.get(..start)?.ends_with(['.', ']']);
         let head = before.get(start..)?;
         (!is_member && head.starts_with(|c: char| c.is_alphabetic() || c == '_' || c == '$')).then_some(head)
-    });
-    dots
+    })
 }
 
 /// Whether an expression contains a name as a whole word.

@@ -37,21 +37,14 @@ pub(super) fn check_number(
     else {
         return Answer::failed("the question does not ask for a number");
     };
-    if tol < 0.0 {
-        return Answer::failed("its tolerance is below 0");
-    }
     let value = match finite_number(bound, &outcomes.nominal, text, findings) {
+        _ if tol < 0.0 => return Answer::failed("its tolerance is below 0"),
         Ok(value) => value,
         Err(reason) => return Answer::failed(reason),
     };
     let in_text = unit_in_text(bound, &outcomes.nominal, text, question).filter(|_| asked.is_none());
     let asked = asked.as_ref().map(|unit| unit.as_str()).or(in_text.as_deref());
-    let measured = asked.and_then(|_| units::of_claim(bound, &outcomes.nominal, text));
-    // A frequency times 2π is an angular velocity, which is not in hertz.
-    let measured = match asked.is_some_and(|unit| unit.contains("Hz")) {
-        true => measured.map(quote::without_pure_factor),
-        false => measured,
-    };
+    let measured = asked.and_then(|unit| dimension_beside(bound, &outcomes.nominal, text, unit));
     let gives = measured.as_ref().map(written);
     let is_fraction = measured.as_ref().is_some_and(|d| d.is_number() && d.factor == 1.0);
     if let Some(reason) = contradicts_question(bound, &outcomes.nominal, text, question, asked, findings) {
@@ -95,9 +88,20 @@ pub(super) fn check_number(
     {
         return judged(verdict, reason);
     }
-    let uncompared = unit == quote::AnswerUnit::Unknown && asked.is_some_and(quote::is_unit);
-    let reason = if uncompared { UNIT_NOT_COMPARED.to_string() } else { String::new() };
+    let is_open = unit == quote::AnswerUnit::Unknown && asked.is_some_and(quote::is_unit);
+    let reason = if is_open { UNIT_NOT_COMPARED } else { "" }.to_string();
     Answer { verdict: verdict_by(Some(value.evidence)), reason, weights }
+}
+
+/// The dimension of an expression beside the unit of a question. A frequency times 2π is an angular velocity, which is not in hertz.
+fn dimension_beside(
+    bound: &BoundVerify<'_>,
+    outcome: &MeasuredRuns,
+    text: &Text,
+    unit: &str,
+) -> Option<Dimension> {
+    let measured = units::of_claim(bound, outcome, text)?;
+    Some(if unit.contains("Hz") { quote::without_pure_factor(measured) } else { measured })
 }
 
 /// Reports an expression that is not what the question asks for: the ratio where it asks for a change, or the inverse ratio. Returns the

@@ -351,6 +351,14 @@ mod tests {
             "nearly twice as long",
             "three balls",
             "it falls",
+        ] {
+            assert_eq!(option_ratio(text), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn a_setting_and_a_denied_factor_are_no_ratio() {
+        for text in [
             "with twice the gravity, it lands earlier",
             "if the stiffness is doubled, the period becomes shorter",
             "when gravity is doubled it falls faster",
