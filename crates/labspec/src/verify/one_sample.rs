@@ -52,8 +52,7 @@ pub(super) fn check_one_sample(
         }
     };
     let Some(extreme) = ["min", "max"].into_iter().find(|extreme| fails(extreme)) else { return };
-    let message =
-        format!("the text says {}, but the condition holds at the end of the run only", named(word));
+    let message = format!("the text says {}, but the condition reads only the end of the run", named(word));
     findings.push(
         Finding::new(rules::ONE_SAMPLE, condition.span(), message)
             .why(format!("with `{extreme}(…)` in place of `final(…)`, it does not hold"))

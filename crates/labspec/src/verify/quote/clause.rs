@@ -2,8 +2,9 @@
 
 use std::ops::Range;
 
-/// The most bytes of a text before and behind a place that are read.
+/// The most bytes of a text before and behind a place that are read, and of its row before it.
 const REACH: usize = 400;
+const ROW: usize = 4000;
 /// Signs that separate clauses. `.` and `,` do so only before a space: `1.42 s`.
 const SEPARATORS: [char; 12] = [';', ':', '!', '?', '(', ')', '"', '<', '>', '|', '—', '–'];
 /// Words between clauses.
@@ -28,7 +29,9 @@ const WORDS: [&str; 14] = [
 pub(super) fn clause_of(file: &str, place: &Range<usize>) -> String {
     let before = file.get(..place.start).unwrap_or("");
     let behind = file.get(place.end..).unwrap_or("");
-    let line = before.rsplit('\n').next().unwrap_or(before);
+    let near = before.len().saturating_sub(ROW);
+    let near = (near..=before.len()).find_map(|i| before.get(i..)).unwrap_or("");
+    let line = near.rsplit('\n').next().unwrap_or(near);
     if let Some(cells) = line.trim_start().strip_prefix('|') {
         return cells.split('|').next().unwrap_or("").trim().to_string();
     }
