@@ -10,26 +10,57 @@ export interface FindingActions {
 
 const MOST = 100;
 
-export function showFindings(groups: readonly { readonly findings: readonly CheckedFinding[]; readonly actions: FindingActions }[]): void {
-  const items = groups.flatMap(({ findings, actions }) => findings.map((finding) => itemOf(finding, actions)));
-  const list = byId("findings", HTMLUListElement);
-  const more = items.length > MOST ? [h("li", {}, `${items.length - MOST} more`)] : [];
-  list.replaceChildren(...(items.length === 0 ? [h("li", { class: "none" }, "None.")] : items.slice(0, MOST)), ...more);
+/** An item of the list, with what its buttons do now. */
+interface Row {
+  readonly item: HTMLLIElement;
+  finding: CheckedFinding;
+  actions: FindingActions;
 }
 
-function itemOf(finding: CheckedFinding, actions: FindingActions): HTMLLIElement {
-  const place = finding.line === null ? finding.file : `${finding.file}, ${finding.line}:${finding.column ?? 1}`;
-  const { show } = actions;
-  const button = show === null ? h("code", {}, place) : h("button", { type: "button", class: "place" }, place);
-  if (show !== null) button.addEventListener("click", () => show(finding));
-  const fixes = finding.fixes.map((fix, index) => {
-    const apply = h("button", { type: "button" }, `Fix: ${fix.title}`);
-    apply.addEventListener("click", () => actions.fix(finding, index));
-    return apply;
+let rows: ReadonlyMap<string, Row> = new Map();
+
+/** Shows findings. An item that was shown before stays the same element: it keeps the focus and a click that has begun. */
+export function showFindings(groups: readonly { readonly findings: readonly CheckedFinding[]; readonly actions: FindingActions }[]): void {
+  const now = new Map<string, Row>();
+  for (const { findings, actions } of groups) {
+    for (const finding of findings) {
+      let key = JSON.stringify([finding, actions.show === null]);
+      // Two findings with the same content are two items.
+      while (now.has(key)) key += "+";
+      now.set(key, rowOf(rows.get(key), finding, actions));
+    }
+  }
+  rows = now;
+  const items = [...now.values()].map((row) => row.item);
+  const more = items.length > MOST ? [h("li", {}, `${items.length - MOST} more`)] : [];
+  replaceItems(byId("findings", HTMLUListElement), [...(items.length === 0 ? [h("li", { class: "none" }, "None.")] : items.slice(0, MOST)), ...more]);
+}
+
+/** Makes `items` the children of `list`; those that are in their place already are not touched. */
+function replaceItems(list: HTMLUListElement, items: readonly HTMLLIElement[]): void {
+  const wanted = new Set<Element>(items);
+  for (const child of [...list.children]) if (!wanted.has(child)) child.remove();
+  items.forEach((item, i) => {
+    const there = list.children[i];
+    if (there !== item) list.insertBefore(item, there ?? null);
   });
+}
+
+function rowOf(before: Row | undefined, finding: CheckedFinding, actions: FindingActions): Row {
+  if (before !== undefined) return Object.assign(before, { finding, actions });
+  const place = finding.line === null ? finding.file : `${finding.file}, ${finding.line}:${finding.column ?? 1}`;
+  const button = actions.show === null ? h("code", {}, place) : h("button", { type: "button", class: "place" }, place);
   const help = [finding.why, finding.help].filter((part) => part !== null).map((part) => h("p", { class: "help" }, part));
-  return h("li", { class: finding.severity }, h("p", {}, button, ` ${finding.severity}: ${finding.message} `, h("code", {}, finding.code)), ...help,
-    fixes.length === 0 ? null : h("div", { class: "fixes" }, ...fixes));
+  const fixes = finding.fixes.map((fix) => h("button", { type: "button" }, `Fix: ${fix.title}`));
+  const row: Row = {
+    finding,
+    actions,
+    item: h("li", { class: finding.severity }, h("p", {}, button, ` ${finding.severity}: ${finding.message} `, h("code", {}, finding.code)), ...help,
+      fixes.length === 0 ? null : h("div", { class: "fixes" }, ...fixes)),
+  };
+  button.addEventListener("click", () => row.actions.show?.(row.finding));
+  fixes.forEach((apply, index) => apply.addEventListener("click", () => row.actions.fix(row.finding, index)));
+  return row;
 }
 
 /** How the states of claims look; others are plain. */

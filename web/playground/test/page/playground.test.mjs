@@ -186,6 +186,25 @@ test("a changed model is another scene; the slider stays", async (t) => {
   errors.none();
 });
 
+test("a click that begins before the list of findings is renewed is a click", async (t) => {
+  const { page, errors } = await open(t);
+  await upToDate(page);
+  await write(page, "model", drop.replace("size=\"0.1\"", "size=\"x\""));
+  const place = page.locator("#findings").getByRole("button", { name: /^drop\.xml, 6:/ });
+  await place.hover();
+  await page.evaluate(() => {
+    globalThis.renewed = false;
+    new MutationObserver(() => { globalThis.renewed ||= document.querySelector("#claims-state").textContent !== "Checking…"; })
+      .observe(document.querySelector("#claims-state"), { childList: true });
+  });
+  await page.mouse.down();
+  // The claims are checked a while after a change, and the list is shown again then.
+  await page.waitForFunction(() => globalThis.renewed);
+  await page.mouse.up();
+  assert.equal(await page.evaluate(() => document.activeElement.closest("#model") !== null), true);
+  errors.none();
+});
+
 test("files are dropped, chosen, and taken from archives and folders", async (t) => {
   const { page, errors } = await open(t);
   await upToDate(page);
