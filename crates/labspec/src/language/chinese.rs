@@ -1,4 +1,6 @@
 use super::Language;
+use super::comparison::UNREAD;
+use super::ratios::Ratios;
 
 // Words for bounds, such as `大于`, make a number unreadable.
 pub(super) static CHINESE: Language = Language {
@@ -20,4 +22,6 @@ pub(super) static CHINESE: Language = Language {
     never: &["从不", "从未", "始终"],
     between: &[("介于", "和"), ("介于", "与")],
     from: &[],
+    comparison: UNREAD,
+    ratios: Ratios { factors: &[], quantities: &[], settings: &[] },
 };

@@ -3,14 +3,20 @@
 //! One table for each language. Words that make a number unreadable are recognized in every text, whatever its language.
 
 mod chinese;
+mod comparison;
 mod english;
 mod french;
 mod german;
 mod italian;
+mod ratios;
 mod spanish;
+pub(crate) mod words;
+
+pub use comparison::Comparison;
+pub use ratios::Ratios;
 
 /// The words of a language.
-#[derive(Debug, PartialEq, Eq)]
+#[derive(Debug, PartialEq)]
 pub struct Language {
     /// The code of ISO 639: `de`.
     pub code: &'static str,
@@ -48,6 +54,10 @@ pub struct Language {
     pub between: &'static [(&'static str, &'static str)],
     /// The same, where the words may also state a change from one number to the other: `von 3 bis 5`.
     pub from: &'static [(&'static str, &'static str)],
+    /// Words that compare values.
+    pub comparison: Comparison,
+    /// Words of ratios.
+    pub ratios: Ratios,
 }
 
 /// All languages.
@@ -97,6 +107,22 @@ impl Languages {
         let mut all = self.iter().map(|language| language.decimal_comma);
         let first = all.next()?;
         all.all(|comma| comma == first).then_some(first)
+    }
+
+    /// The words of one kind with which the languages of the set compare values.
+    pub(crate) fn comparisons(
+        self,
+        of: impl Fn(&'static Comparison) -> &'static [&'static str],
+    ) -> impl Iterator<Item = &'static str> {
+        self.words_of(move |language| of(&language.comparison))
+    }
+
+    /// The words of one kind with which the languages of the set state ratios.
+    pub(crate) fn ratios<T: Copy + 'static>(
+        self,
+        of: impl Fn(&'static Ratios) -> &'static [T],
+    ) -> impl Iterator<Item = T> {
+        self.iter().flat_map(move |language| of(&language.ratios).iter().copied())
     }
 
     /// The words of one kind in all languages of the set.
@@ -149,6 +175,10 @@ mod tests {
                 language.operators,
                 language.never,
             ];
+            let Comparison { smaller, larger, loses, is_lost, keeps, remains, asks_percent, .. } =
+                language.comparison;
+            let comparing = [smaller, larger, loses, is_lost, keeps, remains, asks_percent].concat();
+            assert!(comparing.iter().all(|word| *word == word.to_lowercase()), "{}", language.name);
             assert!(computing.concat().iter().all(|word| *word == word.to_lowercase()), "{}", language.name);
         }
     }

@@ -4,9 +4,10 @@ use super::bound::BoundVerify;
 use super::format::significant;
 use super::option_numbers::{constant, is_below, magnitude};
 use super::outcome::MeasuredRuns;
-use super::value_of::{states_number, value_of, words_of};
+use super::value_of::{states_number, value_of};
 use crate::finding::Finding;
 use crate::language::Languages;
+use crate::language::words::words_of;
 use crate::rules;
 use crate::source::Text;
 use labspec_expr::ast::{BinaryOp, Expr, ExprKind, LogicalOp};
@@ -21,56 +22,6 @@ const MIN_DIFFERENCE: f64 = 0.2;
 const EQUAL: f64 = 0.03;
 const NEARLY_EQUAL: f64 = 0.25;
 const NOISE: f64 = 0.02;
-/// Words of nearly equal values, beside those before approximate numbers.
-const NEARLY: [&str; 46] = [
-    "hardly",
-    "practically",
-    "virtually",
-    "barely",
-    "similar",
-    "similarly",
-    "slightly",
-    "little",
-    "bit",
-    "comparable",
-    "much the same",
-    "close",
-    "few",
-    "order",
-    "approximation",
-    "eye",
-    "weakly",
-    "weak",
-    "small",
-    "noticeably",
-    "noticeable",
-    "rough",
-    "roughly",
-    "essentially",
-    "more or less",
-    "kaum",
-    "praktisch",
-    "näherungsweise",
-    "wenig",
-    "ähnlich",
-    "so gut wie",
-    "fast",
-    "etwa",
-    "ungefähr",
-    "annähernd",
-    "merklich",
-    "presque",
-    "guère",
-    "peu",
-    "voisin",
-    "voisine",
-    "voisines",
-    "casi",
-    "quasi",
-    "poco",
-    "similares",
-];
-
 /// Two terms that a condition calls equal.
 struct Equality {
     a: Expr,
@@ -150,7 +101,8 @@ fn is_approximate(text: &str, languages: Languages) -> bool {
     let words = words_of(text);
     let text = format!(" {} ", words.join(" "));
     let approximate = languages.words_of(|language| language.approximate);
-    let mut all = approximate.chain(languages.words_of(|language| language.slightly_less)).chain(NEARLY);
+    let slightly_less = languages.words_of(|language| language.slightly_less);
+    let mut all = approximate.chain(slightly_less).chain(languages.comparisons(|c| c.nearly_equal));
     all.any(|word| text.contains(&format!(" {word} ")))
 }
 

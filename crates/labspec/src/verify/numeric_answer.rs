@@ -8,9 +8,10 @@ use super::found::MeasuredValue;
 use super::grounded::{decided_value, report_constant_claim, report_undecided};
 use super::outcome::MeasuredRuns;
 use super::outcomes::Outcomes;
-use super::ratio_of_change::check_asked_change;
+use super::ratio_of_change::{StatedExpr, check_asked_change};
 use super::ratio_order::check_ratio_order;
 use super::survival::{fragile_answer, verdict_by, withstand_numerics};
+use super::value_of::value_of;
 use super::verdict::{Answer, Verdict, Weight};
 use super::{quote, units};
 use crate::finding::Finding;
@@ -20,6 +21,7 @@ use crate::spec::{Question, QuestionKind};
 use labspec_bind::units::{parse as units_of, written};
 use labspec_expr::Value;
 use labspec_expr::dimension::Dimension;
+use labspec_expr::parse_expression;
 use std::ops::Range;
 
 /// Checks that the keyed number equals the value of the expression, and that its tolerance rejects the values of mistakes
@@ -117,7 +119,9 @@ fn contradicts_question(
     let in_text = quote::asked_unit(question.q.as_str());
     let is_percentage = unit.or(in_text.as_deref()).is_some_and(|unit| quote::percentage(unit).is_some());
     let text_of = |name: &str| bound.text_of_measure(name);
-    let change = is_percentage.then(|| check_asked_change(&question.q, text, &text_of, findings)).flatten();
+    let value = value_of(bound, outcome, &parse_expression(text.as_str()).tree, text);
+    let expr = StatedExpr { text, value, measures: &text_of, languages: bound.stage().languages() };
+    let change = is_percentage.then(|| check_asked_change(&question.q, expr, findings)).flatten();
     change.or_else(|| check_ratio_order(bound, outcome, &question.q, text, findings))
 }
 

@@ -6,6 +6,8 @@ use super::option_numbers::{constant, is_below, magnitude};
 use super::outcome::MeasuredRuns;
 use super::value_of::{states_number, value_of};
 use crate::finding::Finding;
+use crate::language::words::split_words;
+use crate::language::{Comparison, Languages};
 use crate::rules;
 use crate::source::Text;
 use labspec_expr::ast::{BinaryOp, Expr, ExprKind, LogicalOp, UnaryOp};
@@ -16,24 +18,6 @@ const MAX_RELATIVE: f64 = 0.05;
 /// A tolerance does not act if the difference is this many times as large, and this fraction of the larger value.
 const FAR: f64 = 5.0;
 const FAR_FRACTION: f64 = 0.02;
-/// Words of a text that states a bound: `not slower`, `at least as fast`.
-const BOUND_WORDS: [&str; 14] = [
-    "not",
-    "no",
-    "never",
-    "least",
-    "most",
-    "cannot",
-    "without",
-    "nicht",
-    "kein",
-    "keine",
-    "mindestens",
-    "höchstens",
-    "pas",
-    "non",
-];
-
 /// A comparison of two terms: `smaller < larger + tolerance`
 struct OneSided<'e> {
     smaller: &'e Expr,
@@ -74,7 +58,7 @@ pub(super) fn check_one_sided(
     let names = |e: &Expr, other: &Expr| (print(e), print(other));
     let pairs: Vec<(String, String)> = all.iter().map(|c| names(c.smaller, c.larger)).collect();
     all.retain(|comparison| !matches!(comparison.tolerance, Tolerance::None));
-    if states_bound(stated.as_str()) {
+    if states_bound(stated.as_str(), bound.stage().languages()) {
         return;
     }
     for OneSided { smaller, larger, tolerance } in all {
@@ -137,11 +121,13 @@ fn compared_magnitude(e: &Expr) -> Option<&Expr> {
     }
 }
 
-/// Whether a text states a bound.
-fn states_bound(text: &str) -> bool {
+/// Whether a text states a bound: `not slower`, `at least as fast`.
+fn states_bound(text: &str, languages: Languages) -> bool {
+    let lists: [fn(&'static Comparison) -> &'static [&'static str]; 3] =
+        [|c| c.negations, |c| c.negative_articles, |c| c.limits];
     let lower = text.to_lowercase();
-    let mut words = lower.split(|c: char| !c.is_alphanumeric());
-    words.any(|word| BOUND_WORDS.contains(&word)) || lower.contains("n't") || lower.contains("n’t")
+    let is_listed = |word: &str| lists.iter().any(|list| languages.comparisons(list).any(|w| w == word));
+    split_words(&lower).any(is_listed) || lower.contains("n't") || lower.contains("n’t")
 }
 
 /// Appends the comparisons of two terms.

@@ -108,6 +108,11 @@ impl QuotedValue {
         Ok(QuotedValue { found, timestep, start })
     }
 
+    /// The value, if it is a number.
+    pub(super) fn number(&self) -> Option<f64> {
+        matches!(self.found.value, Value::Number(_)).then(|| self.found.value.to_number())
+    }
+
     pub(super) fn is_condition(&self) -> bool {
         matches!(self.found.value, Value::Boolean(_))
     }

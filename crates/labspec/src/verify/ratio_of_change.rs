@@ -1,98 +1,132 @@
 //! Finds quotes such as "41 % longer" and "falls by 41 %" whose expression is the ratio of two measures instead of their relative
-//! difference.
+//! difference, or their difference relative to the wrong one.
 
 use super::option_numbers::constant;
-use super::quote::{DECREASES, INCREASES, SMALLER};
 use crate::finding::Finding;
+use crate::language::words::{ends_with, find, split_words, starts_with};
+use crate::language::{Comparison, Languages};
 use crate::rules;
 use crate::source::Text;
 use labspec_expr::ast::{BinaryOp, Expr, ExprKind};
 use labspec_expr::{parse_expression, print};
 
-const LARGER: [&str; 14] = [
-    "more", "longer", "faster", "higher", "larger", "bigger", "greater", "heavier", "farther", "further",
-    "deeper", "stronger", "later", "wider",
-];
-
 /// A verb is at most this number of words before `by`: `grows in length by`.
 const VERB_WORDS: usize = 4;
 /// And the number at most this number of words behind it: `by about`.
 const ADVERBS: usize = 1;
-
-/// Verbs of a loss, before the number: `loses 35 %`. And those of what remains: `keeps 65 %`.
-const LOSES: [&str; 5] = ["lose", "loses", "lost", "losing", "dissipates"];
-const KEEPS: [&str; 6] = ["keep", "keeps", "kept", "retains", "retain", "retained"];
-/// Behind the number: `65 % is left`. They are at most this number of words behind it.
-const REMAINS: [&str; 6] = ["left", "remain", "remains", "remaining", "survive", "survives"];
+/// `left` is at most this number of words behind a number.
 const REMAINS_WORDS: usize = 6;
-/// Questions for a part or a change in percent.
-const ASKED: [&str; 6] = [
-    "how many percent",
-    "how many per cent",
-    "how many %",
-    "what percentage",
-    "which percentage",
-    "what percent",
-];
+/// They make a phrase behind a number one about something else: `5 % of what is lost`.
+const RELATIVE_PRONOUNS: [&str; 6] = ["that", "which", "what", "qui", "que", "che"];
+/// The part of a change by which the same change relative to the other value must differ: smaller differences may be rounded.
+const LEAST_DIFFERENCE: f64 = 0.05;
 
 /// The text of a measure by its name.
 pub(super) type MeasureTexts<'t> = &'t dyn Fn(&str) -> Option<String>;
 
-/// Reports a quote that states a change in percent, with an expression that is certainly a ratio, or what remains, with one that is a
-/// loss. `clause` is the text around the quote. Returns the reason.
+/// The expression beside a text.
+#[derive(Clone, Copy)]
+pub(super) struct StatedExpr<'t> {
+    pub(super) text: &'t Text,
+    /// Its value, if it is a number.
+    pub(super) value: Option<f64>,
+    pub(super) measures: MeasureTexts<'t>,
+    pub(super) languages: Languages,
+}
+
+/// Reports a quote that states a change in percent, with an expression that is another one, or no change. `clause` is the text around the
+/// quote. Returns the reason.
 pub(super) fn check_ratio_of_change(
     quote: &Text,
     clause: Option<&str>,
-    expr: &Text,
-    texts: MeasureTexts<'_>,
+    expr: StatedExpr<'_>,
     findings: &mut Vec<Finding>,
 ) -> Option<String> {
-    let in_text = |text: &str| change(text).or_else(|| loss_or_rest(text));
+    let in_text = |text: &str| change(text, expr.languages).or_else(|| loss_or_rest(text, expr.languages));
     let stated = in_text(quote.as_str()).or_else(|| in_text(clause?))?;
-    report(quote, &stated, expr, texts, findings)
+    report(quote, &stated, expr, findings)
 }
 
 /// The same for the text of a numeric question: `By how many percent does the period grow?`
 pub(super) fn check_asked_change(
     question: &Text,
-    expr: &Text,
-    texts: MeasureTexts<'_>,
+    expr: StatedExpr<'_>,
     findings: &mut Vec<Finding>,
 ) -> Option<String> {
-    report(question, &asked_change(question.as_str())?, expr, texts, findings)
+    report(question, &asked_change(question.as_str(), expr.languages)?, expr, findings)
 }
 
-/// Reports an expression that is a ratio where a text states a change, and the reverse.
-fn report(
-    text: &Text,
-    stated: &Change,
-    expr: &Text,
-    texts: MeasureTexts<'_>,
-    findings: &mut Vec<Finding>,
-) -> Option<String> {
-    let tree = parse_expression(expr.as_str()).tree;
-    let (ratio, help) = match stated.part {
-        Part::Rest => {
-            let [a, b] = loss(&tree)?;
-            (format!("`1 - {a} / {b}`, what is lost"), format!("write `100 * {a} / {b}`"))
-        }
-        part => {
-            let [a, b] = ratio(&tree, part == Part::Loss, texts)?;
-            let help = match part {
-                Part::Larger => format!("write `100 * ({a} / {b} - 1)`"),
-                _ => format!("write `100 * (1 - {a} / {b})`"),
-            };
-            ("the ratio of both".to_string(), help)
-        }
+/// Reports an expression that is not the change that a text states.
+fn report(text: &Text, stated: &Change, expr: StatedExpr<'_>, findings: &mut Vec<Finding>) -> Option<String> {
+    let tree = parse_expression(expr.text.as_str()).tree;
+    let part = stated.part;
+    let Mismatch { is, why, help } = match part {
+        Part::Rest => loss_for_rest(&tree)?,
+        _ => ratio_for_change(&tree, part, expr.measures).or_else(|| wrong_base(&tree, part, expr.value))?,
     };
-    let message = format!("{}, but the expression is {ratio}", stated.message);
+    let message = format!("{}, but the expression is {is}", stated.message);
     findings.push(
         Finding::error(rules::QUOTE_WRONG, text.span(), message.clone())
-            .why("a value that is 41 % of another one is 59 % smaller: the ratio is not the change")
-            .help(format!("{help} as the expression, and correct the number"))
-            .related(expr.span(), "the expression"),
+            .why(why)
+            .help(format!("write `{help}` as the expression, and correct the number"))
+            .related(expr.text.span(), "the expression"),
     );
     Some(message)
+}
+
+/// What an expression is instead of the change that a text states.
+struct Mismatch {
+    is: String,
+    why: &'static str,
+    /// The expression to write.
+    help: String,
+}
+
+const RATIO_IS_NO_CHANGE: &str =
+    "a value that is 41 % of another one is 59 % smaller: the ratio is not the change";
+
+/// A loss where the text states what remains.
+fn loss_for_rest(tree: &Expr) -> Option<Mismatch> {
+    let [a, b] = loss(tree)?;
+    let is = format!("`1 - {a} / {b}`, what is lost");
+    Some(Mismatch { is, why: RATIO_IS_NO_CHANGE, help: format!("100 * {a} / {b}") })
+}
+
+/// A ratio where the text states a change.
+fn ratio_for_change(tree: &Expr, part: Part, measures: MeasureTexts<'_>) -> Option<Mismatch> {
+    let [a, b] = ratio(tree, part == Part::Loss, measures)?;
+    let help = match part {
+        Part::Larger => format!("100 * ({a} / {b} - 1)"),
+        _ => format!("100 * (1 - {a} / {b})"),
+    };
+    Some(Mismatch { is: "the ratio of both".to_string(), why: RATIO_IS_NO_CHANGE, help })
+}
+
+/// By how much one value is larger, where the text states how much smaller the other one is, or the reverse. Not if both have nearly the
+/// same digits.
+fn wrong_base(tree: &Expr, part: Part, value: Option<f64>) -> Option<Mismatch> {
+    let RelativeChange { a, b, unit } = relative_change(tree)?;
+    let fraction = value? / unit;
+    let is_larger = fraction > 0.0;
+    let is_wrong = match part {
+        Part::Larger => !is_larger,
+        Part::Smaller => is_larger,
+        Part::Loss | Part::Rest => false,
+    };
+    let relative_to_other = fraction / (1.0 + fraction);
+    let differs = (relative_to_other / fraction - 1.0).abs() > LEAST_DIFFERENCE;
+    if !is_wrong || !differs {
+        return None;
+    }
+    let (word, opposite, help) = match is_larger {
+        true => ("larger", "smaller", format!("100 * (1 - {b} / {a})")),
+        false => ("smaller", "larger", format!("100 * ({b} / {a} - 1)")),
+    };
+    Some(Mismatch {
+        is: format!("by how much `{a}` is {word} than `{b}`, not by how much `{b}` is {opposite} than `{a}`"),
+        why: "a value that is 100 % larger than another one is twice as large, and the other one is 50 % smaller",
+        help,
+    })
 }
 
 /// What a number of percent is.
@@ -113,96 +147,122 @@ struct Change {
     part: Part,
 }
 
-/// What a quote says is lost (`loses 35 %`), or remains (`keeps 65 %`, `65 % is left`).
-fn loss_or_rest(quote: &str) -> Option<Change> {
+/// One kind of words that compare.
+type Words = fn(&'static Comparison) -> &'static [&'static str];
+
+/// A text in lower case before and behind its first unit of percent.
+fn around_percent(lower: &str, languages: Languages) -> Option<(&str, &str)> {
+    let units = ["%"].into_iter().chain(languages.comparisons(|c| c.percent));
+    let places = units.filter_map(|unit| {
+        let start = if unit == "%" { lower.find(unit) } else { find(lower, unit) };
+        Some((start?, unit.len()))
+    });
+    let (start, length) = places.min()?;
+    Some((lower.get(..start)?, lower.get(start + length..)?))
+}
+
+/// The first of some phrases close behind a number. Behind a relative pronoun, it is about something else.
+fn phrase_behind(behind: &str, words: Words, languages: Languages) -> Option<&'static str> {
+    let places = languages.comparisons(words).filter_map(|phrase| Some((find(behind, phrase)?, phrase)));
+    let is_near = |(start, _): &(usize, &str)| {
+        let between: Vec<&str> = split_words(behind.get(..*start).unwrap_or("")).collect();
+        between.len() < REMAINS_WORDS && !between.iter().any(|word| RELATIVE_PRONOUNS.contains(word))
+    };
+    places.filter(is_near).min().map(|(_, phrase)| phrase)
+}
+
+/// What a quote says is lost (`loses 35 %`, `35 % is lost`), or remains (`keeps 65 %`, `65 % is left`).
+fn loss_or_rest(quote: &str, languages: Languages) -> Option<Change> {
     let lower = quote.to_lowercase();
-    let (before, behind) =
-        ["%", "percent", "per cent"].into_iter().find_map(|unit| lower.split_once(unit))?;
-    let words = |text: &str| -> Vec<String> {
-        let words = text.split(|c: char| !c.is_alphabetic()).filter(|word| !word.is_empty());
-        words.map(str::to_owned).collect()
-    };
-    let (before, behind) = (words(before), words(behind));
-    let near: Vec<&str> = before.iter().rev().take(ADVERBS + 1).map(String::as_str).collect();
-    let change = |word: &str, part: Part| {
-        let what = if part == Part::Loss { "what is lost" } else { "what remains" };
-        Some(Change { message: format!("the text says {what} (\"{word}\")"), part })
-    };
-    if let Some(word) = near.iter().find(|word| LOSES.contains(word)) {
-        return change(word, Part::Loss);
-    }
-    if let Some(word) = near.iter().find(|word| KEEPS.contains(word)) {
-        return change(word, Part::Rest);
-    }
-    let word = behind.iter().take(REMAINS_WORDS).find(|word| REMAINS.contains(&word.as_str()))?;
-    change(word, Part::Rest)
+    let (before, behind) = around_percent(&lower, languages)?;
+    let is_word = |word: &&str| word.chars().all(char::is_alphabetic);
+    let near: Vec<&str> = split_words(before).filter(is_word).rev().take(ADVERBS + 1).collect();
+    let verb =
+        |words: Words| near.iter().copied().find(|word| languages.comparisons(words).any(|w| w == *word));
+    let behind = |words: Words| phrase_behind(behind, words, languages);
+    let lost = || behind(|c| c.is_lost).or_else(|| verb(|c| c.loses));
+    let remaining = || verb(|c| c.keeps).or_else(|| behind(|c| c.remains));
+    let (word, part) =
+        lost().map(|word| (word, Part::Loss)).or_else(|| remaining().map(|word| (word, Part::Rest)))?;
+    let what = if part == Part::Loss { "what is lost" } else { "what remains" };
+    Some(Change { message: format!("the text says {what} (\"{word}\")"), part })
 }
 
 /// The change in percent that a question asks for: `By how many percent does it grow?`, `How many percent longer is it?`, `What percentage
 /// of it is lost?`
-fn asked_change(question: &str) -> Option<Change> {
+fn asked_change(question: &str, languages: Languages) -> Option<Change> {
     let lower = question.to_lowercase();
-    let (start, phrase) = ASKED.iter().find_map(|phrase| Some((lower.find(phrase)?, *phrase)))?;
-    let is_by = lower.get(..start)?.trim_end().ends_with("by");
+    let mut phrases = languages.comparisons(|c| c.asks_percent);
+    let (start, phrase) = phrases.find_map(|phrase| Some((lower.find(phrase)?, phrase)))?;
+    let before = lower.get(..start)?.trim_end();
+    let is_by = languages.comparisons(|c| c.by).any(|by| ends_with(before, by));
     let rest = lower.get(start + phrase.len()..)?;
     let rest = rest.split(['?', '.', ';']).next().unwrap_or(rest);
-    let words: Vec<&str> = rest.split(|c: char| !c.is_alphabetic()).filter(|word| !word.is_empty()).collect();
+    let words: Vec<&str> = split_words(rest).collect();
     let change = |word: &str, part| {
         Some(Change { message: format!("the question asks for a change (\"{word}\")"), part })
     };
-    if let Some(word) = words.iter().find(|word| LOSES.contains(word)) {
+    let is = |word: &str, list: Words| languages.comparisons(list).any(|w| w == word);
+    if let Some(word) = words.iter().find(|word| is(word, |c| c.loses)) {
         return change(word, Part::Loss);
     }
     let near = if is_by { words.len() } else { 1 };
-    let compared = words.iter().take(near).find_map(|word| match word {
-        word if SMALLER.contains(word) => Some((*word, Part::Smaller)),
-        word if LARGER.contains(word) => Some((*word, Part::Larger)),
-        _ => None,
-    });
-    if let Some((word, part)) = compared {
+    if let Some((word, part)) =
+        words.iter().take(near).find_map(|word| Some((*word, comparative(word, languages)?)))
+    {
         return change(word, part);
     }
-    let verb = |stems: &[&str]| words.iter().find(|word| stems.iter().any(|stem| word.starts_with(stem)));
-    match (verb(&DECREASES), verb(&INCREASES)) {
-        (Some(word), None) if is_by => change(word, Part::Smaller),
-        (None, Some(word)) if is_by => change(word, Part::Larger),
+    let (verb, part) = verb_of_change(&words, languages).filter(|_| is_by)?;
+    change(verb, part)
+}
+
+/// What a text beginning with a comparative compares: `longer`.
+fn comparative(text: &str, languages: Languages) -> Option<Part> {
+    let begins = |words: Words| languages.comparisons(words).any(|word| starts_with(text, word));
+    match () {
+        () if begins(|c| c.smaller) => Some(Part::Smaller),
+        () if begins(|c| c.larger) => Some(Part::Larger),
+        () => None,
+    }
+}
+
+/// The verb of a decrease or of an increase among some words; `None` if there are both.
+fn verb_of_change<'w>(words: &[&'w str], languages: Languages) -> Option<(&'w str, Part)> {
+    let verb = |list: Words| {
+        let is_listed = |word: &&str| languages.comparisons(list).any(|stem| word.starts_with(stem));
+        words.iter().copied().find(is_listed)
+    };
+    match (verb(|c| c.decreases), verb(|c| c.increases)) {
+        (Some(verb), None) => Some((verb, Part::Smaller)),
+        (None, Some(verb)) => Some((verb, Part::Larger)),
         _ => None,
     }
 }
 
-/// The change that a quote states: a comparative behind the number of percent (`41 % longer`), or a verb before it (`falls by 41 %`).
-fn change(quote: &str) -> Option<Change> {
+/// The change that a quote states: a comparative behind the number of percent (`41 % longer`), or a verb before it (`falls by 41 %`) or
+/// behind it (`um 41 % sinkt`).
+fn change(quote: &str, languages: Languages) -> Option<Change> {
     let lower = quote.to_lowercase();
-    let (before, behind) =
-        ["%", "percent", "per cent"].into_iter().find_map(|unit| lower.split_once(unit))?;
-    let word: String = behind.trim_start().chars().take_while(|c| c.is_alphabetic()).collect();
-    let is_smaller = SMALLER.contains(&word.as_str());
-    let part = |is_smaller: bool| if is_smaller { Part::Smaller } else { Part::Larger };
-    if is_smaller || LARGER.contains(&word.as_str()) {
-        return Some(Change {
-            message: format!("the text says how much {word} it is"),
-            part: part(is_smaller),
-        });
+    let (before, behind) = around_percent(&lower, languages)?;
+    let behind = behind.trim_start();
+    if let Some(part) = comparative(behind, languages) {
+        let word = split_words(behind).next().unwrap_or("");
+        return Some(Change { message: format!("the text says how much {word} it is"), part });
     }
     // `by 41 % of the first rise` is a part of something.
-    if word == "of" {
+    if languages.words_of(|l| l.of).any(|of| starts_with(behind, of)) {
         return None;
     }
-    let mut words = before.rsplit(|c: char| !c.is_alphabetic()).filter(|word| !word.is_empty());
+    let is_word = |word: &&str| word.chars().all(char::is_alphabetic);
+    let words: Vec<&str> = split_words(before).filter(is_word).rev().collect();
     // `to` before the number would name what remains. An adverb may be between: `by about 41 %`.
-    let near: Vec<&str> = words.by_ref().take(ADVERBS + 1).take_while(|word| *word != "by").collect();
-    if near.len() > ADVERBS {
-        return None;
-    }
-    let others: Vec<&str> = words.take(VERB_WORDS).collect();
-    let verb = |stems: &[&str]| others.iter().find(|word| stems.iter().any(|stem| word.starts_with(stem)));
-    let (verb, is_smaller) = match (verb(&DECREASES), verb(&INCREASES)) {
-        (Some(verb), None) => (verb, true),
-        (None, Some(verb)) => (verb, false),
-        _ => return None,
-    };
-    let message = format!("the text says by how much it changes (\"{verb} by\")");
-    Some(Change { message, part: part(is_smaller) })
+    let is_by = |word: &&str| languages.comparisons(|c| c.by).any(|by| by == *word);
+    let by = words.iter().take(ADVERBS + 1).position(is_by)?;
+    let before: Vec<&str> = words.into_iter().skip(by + 1).take(VERB_WORDS).collect();
+    let next: Vec<&str> =
+        split_words(behind.split([',', '.', ';', ':']).next().unwrap_or("")).take(1).collect();
+    let (verb, part) = verb_of_change(&before, languages).or_else(|| verb_of_change(&next, languages))?;
+    Some(Change { message: format!("the text says by how much it changes (\"{verb}\")"), part })
 }
 
 /// The two terms of an expression that is the ratio of one measure in two runs, perhaps times a number; with `any`, of any two measures
@@ -214,16 +274,7 @@ fn ratio(e: &Expr, any: bool, texts: MeasureTexts<'_>) -> Option<[String; 2]> {
         BinaryOp::Multiply if constant(right).is_some() => ratio(left, any, texts),
         BinaryOp::Divide => {
             // `100 * a.t / b.t` is `(100 * a.t) / b.t`.
-            let left = match &left.kind {
-                ExprKind::Binary { op: BinaryOp::Multiply, left: x, right: y } => {
-                    match (constant(x), constant(y)) {
-                        (Some(_), None) => y,
-                        (None, Some(_)) => x,
-                        _ => return None,
-                    }
-                }
-                _ => left,
-            };
+            let (left, _) = without_factor(left);
             let [a, b] = [measure(left, any)?, measure(right, any)?];
             let is_whole = |name: &str| texts(name).is_some_and(|text| !text.contains('-'));
             let is_ratio = a == b || any && is_whole(a) && is_whole(b);
@@ -250,6 +301,58 @@ fn loss(e: &Expr) -> Option<[String; 2]> {
     }
 }
 
+/// `100 * (a / b - 1)`, or `100 * (1 - a / b)`.
+struct RelativeChange {
+    a: String,
+    b: String,
+    /// The value of the expression if `a` is larger than `b` by its whole value: 100, or -100.
+    unit: f64,
+}
+
+/// The relative difference of one measure in two runs, perhaps times a number.
+fn relative_change(e: &Expr) -> Option<RelativeChange> {
+    let ExprKind::Binary { op, left, right } = &e.kind else { return None };
+    let quotient = |e: &Expr, unit: f64| {
+        let ExprKind::Binary { op: BinaryOp::Divide, left: a, right: b } = &e.kind else { return None };
+        (measure(a, false)? == measure(b, false)?).then(|| RelativeChange { a: print(a), b: print(b), unit })
+    };
+    let scaled = |e: &Expr, factor: f64| {
+        let change = relative_change(e)?;
+        Some(RelativeChange { unit: factor * change.unit, ..change })
+    };
+    match (op, constant(left), constant(right)) {
+        (BinaryOp::Multiply, Some(factor), None) => scaled(right, factor),
+        (BinaryOp::Multiply, None, Some(factor)) => scaled(left, factor),
+        (BinaryOp::Subtract, None, Some(1.0)) => quotient(left, 1.0),
+        (BinaryOp::Subtract, Some(1.0), None) => quotient(right, -1.0),
+        (BinaryOp::Divide, None, None) => {
+            let (difference, factor) = without_factor(left);
+            let ExprKind::Binary { op: BinaryOp::Subtract, left: a, right: b } = &difference.kind else {
+                return None;
+            };
+            let is_change = measure(a, false)? == measure(b, false)?;
+            let [a, b, base] = [a, b, right].map(|e| print(e));
+            match () {
+                // `(a - b) / b`, and `(a - b) / a`.
+                () if is_change && base == b => Some(RelativeChange { a, b, unit: factor }),
+                () if is_change && base == a => Some(RelativeChange { a: b, b: a, unit: -factor }),
+                () => None,
+            }
+        }
+        _ => None,
+    }
+}
+
+/// An expression without a constant factor, and the factor.
+fn without_factor(e: &Expr) -> (&Expr, f64) {
+    let ExprKind::Binary { op: BinaryOp::Multiply, left, right } = &e.kind else { return (e, 1.0) };
+    match (constant(left), constant(right)) {
+        (Some(factor), None) => (right, factor),
+        (None, Some(factor)) => (left, factor),
+        _ => (e, 1.0),
+    }
+}
+
 /// The name of the measure of `run.measure`; with `bare`, of `measure` as well.
 fn measure(e: &Expr, bare: bool) -> Option<&str> {
     match &e.kind {
@@ -265,7 +368,11 @@ mod tests {
 
     fn is_reported(quote: &str, expr: &str) -> bool {
         let [quote, expr] = [quote, expr].map(|text| Text::derived(text.to_string(), 0..1));
-        check_ratio_of_change(&quote, None, &expr, &text_of, &mut Vec::new()).is_some()
+        check_ratio_of_change(&quote, None, beside(&expr, None), &mut Vec::new()).is_some()
+    }
+
+    fn beside(text: &Text, value: Option<f64>) -> StatedExpr<'_> {
+        StatedExpr { text, value, measures: &text_of, languages: Languages::ALL }
     }
 
     fn text_of(name: &str) -> Option<String> {
@@ -284,6 +391,11 @@ mod tests {
             ("91 % of the energy is left", "100 * (1 - e1 / e0)"),
             ("keeps 91 %", "1 - a.e1 / a.e0"),
             ("91 % is left", "100 * (1 - a.e1 / 0.36)"),
+            ("35 % of the energy is lost", "100 * a.apex / a.z"),
+            ("35 % der Energie gehen verloren", "100 * a.apex / a.z"),
+            ("verliert etwa 35 %", "100 * a.apex / a.z"),
+            ("garde 91 %", "100 * (1 - e1 / e0)"),
+            ("91 % bleiben übrig", "100 * (1 - e1 / e0)"),
         ] {
             assert!(is_reported(quote, expr), "{quote}: {expr}");
         }
@@ -292,6 +404,8 @@ mod tests {
             ("loses 35 % of its energy", "100 * a.lost / a.z"),
             ("91 % of the energy is left", "100 * e1 / e0"),
             ("35 % of its height", "100 * a.apex / a.z"),
+            ("35 % of the energy that is lost", "100 * a.apex / a.z"),
+            ("the remaining 35 % is lost", "100 * (1 - a.apex / a.z)"),
         ] {
             assert!(!is_reported(quote, expr), "{quote}: {expr}");
         }
@@ -301,12 +415,16 @@ mod tests {
     fn a_question_for_a_change_is_not_answered_by_a_ratio() {
         let is_reported = |question: &str, expr: &str| {
             let [question, expr] = [question, expr].map(|text| Text::derived(text.to_string(), 0..1));
-            check_asked_change(&question, &expr, &text_of, &mut Vec::new()).is_some()
+            check_asked_change(&question, beside(&expr, None), &mut Vec::new()).is_some()
         };
         for question in [
             "By how many percent does the period grow?",
             "By what percentage is it longer?",
             "How many percent longer is the wide swing?",
+            "Um wie viel Prozent wächst die Periode?",
+            "Um wie viel Prozent ist sie länger?",
+            "De quel pourcentage augmente-t-elle ?",
+            "¿En qué porcentaje aumenta?",
         ] {
             assert!(is_reported(question, "100 * wide.T / small.T"), "{question}");
             assert!(!is_reported(question, "100 * (wide.T / small.T - 1)"), "{question}");
@@ -328,12 +446,18 @@ mod tests {
             ("falls by 41 %", "100 * earth.t / moon.t"),
             ("is reduced by about 41 %", "100 * earth.t / moon.t"),
             ("The time grows by 41 %", "100 * earth.t / moon.t"),
+            ("41 % länger", "100 * earth.t / moon.t"),
+            ("sinkt um etwa 41 Prozent", "100 * earth.t / moon.t"),
+            ("dass sie um 41 % sinkt", "100 * earth.t / moon.t"),
+            ("41 % plus long", "100 * earth.t / moon.t"),
+            ("diminue de 41 %", "100 * earth.t / moon.t"),
         ] {
             assert!(is_reported(quote, expr), "{quote}: {expr}");
         }
         for (quote, expr) in [
             ("41 % longer", "100 * (earth.t / moon.t - 1)"),
             ("41 % of the time", "100 * earth.t / moon.t"),
+            ("sinkt auf 41 %", "100 * earth.t / moon.t"),
             ("41 %", "100 * earth.t / moon.t"),
             ("falls to 41 %", "100 * earth.t / moon.t"),
             ("rises by 41 % of the first rise", "100 * second.rise / first.rise"),
@@ -344,6 +468,32 @@ mod tests {
             ("41 % longer", "percent"),
         ] {
             assert!(!is_reported(quote, expr), "{quote}: {expr}");
+        }
+    }
+
+    #[test]
+    fn the_other_value_changes_by_another_part() {
+        let is_reported = |quote: &str, expr: &str, value: f64| {
+            let [quote, expr] = [quote, expr].map(|text| Text::derived(text.to_string(), 0..1));
+            check_ratio_of_change(&quote, None, beside(&expr, Some(value)), &mut Vec::new()).is_some()
+        };
+        for (quote, expr, value) in [
+            ("16 % shorter", "100 * (wide.T / small.T - 1)", 16.0),
+            ("16 % shorter", "100 * (wide.T - small.T) / small.T", 16.0),
+            ("14 % longer", "100 * (1 - small.T / wide.T)", 14.0),
+            ("falls by 16 %", "100 * (wide.T / small.T - 1)", 16.0),
+        ] {
+            assert!(is_reported(quote, expr, value), "{quote}: {expr}");
+        }
+        for (quote, expr, value) in [
+            ("16 % longer", "100 * (wide.T / small.T - 1)", 16.0),
+            ("14 % shorter", "100 * (1 - small.T / wide.T)", 14.0),
+            ("14 % shorter", "100 * (small.T / wide.T - 1)", -14.0),
+            ("14 % shorter", "100 * (small.T - wide.T) / wide.T", -14.0),
+            ("0.5 % shorter", "100 * (wide.T / small.T - 1)", 0.5),
+            ("16 % shorter", "100 * (1 - small.apex / wide.z)", -16.0),
+        ] {
+            assert!(!is_reported(quote, expr, value), "{quote}: {expr}");
         }
     }
 }

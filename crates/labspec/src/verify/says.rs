@@ -2,7 +2,7 @@
 
 use super::named_run::{check_exchanged_runs, misnamed};
 use super::quote_checker::{Quote, QuoteChecker, QuotedValue, check_number, check_words};
-use super::ratio_of_change::check_ratio_of_change;
+use super::ratio_of_change::{StatedExpr, check_ratio_of_change};
 use super::{column, quote};
 use crate::finding::Finding;
 use crate::printable::counted;
@@ -53,16 +53,16 @@ fn check_line(
         }
     }
     let text_of = |name: &str| checker.bound.text_of_measure(name);
-    if let [expr] = exprs.as_slice()
-        && let Some(reason) =
-            check_ratio_of_change(&quoted.quote, clause_of(&places), expr, &text_of, findings)
-    {
-        return vec![Quote::unclear(&quoted.quote, &reason)];
+    let languages = checker.bound.stage().languages();
+    if let [(text, value)] = given.as_slice() {
+        let expr = StatedExpr { text, value: value.number(), measures: &text_of, languages };
+        if let Some(reason) = check_ratio_of_change(&quoted.quote, clause_of(&places), expr, findings) {
+            return vec![Quote::unclear(&quoted.quote, &reason)];
+        }
     }
     let numbers = given.iter().filter(|(_, given)| !given.is_condition()).count();
     // With one expression, it belongs to the number that the quote states. With words and numbers, every number must be
     // checked.
-    let languages = checker.bound.stage().languages();
     let parts = match exprs.as_slice() {
         [_] if numbers == 1 => vec![quote::whole(quoted.quote.as_str(), languages)],
         _ => quote::parts(quoted.quote.as_str(), numbers, languages),

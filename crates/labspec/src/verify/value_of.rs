@@ -5,6 +5,8 @@ use super::condition::numbers_in;
 use super::outcome::MeasuredRuns;
 use super::quote::quantities_in;
 use super::units;
+use crate::language::words::words_of;
+use crate::language::{Comparison, Languages};
 use crate::source::Text;
 use labspec_expr::ast::Expr;
 use labspec_expr::print;
@@ -19,56 +21,6 @@ pub(super) fn value_of(
     let text = Text::derived(print(part), condition.span());
     let found = bound.find(outcome, &text, &mut Vec::new())?.value.to_number();
     Some(found).filter(|x| x.is_finite())
-}
-
-/// Words with which a text states how large a difference is: `within a tenth of a second`, `less than five percent`.
-const SIZES: [&str; 40] = [
-    "second",
-    "seconds",
-    "sekunde",
-    "sekunden",
-    "seconde",
-    "secondes",
-    "segundo",
-    "segundos",
-    "metre",
-    "metres",
-    "meter",
-    "meters",
-    "mètre",
-    "mètres",
-    "centimetre",
-    "centimetres",
-    "millimetre",
-    "millimetres",
-    "zentimeter",
-    "millimeter",
-    "degree",
-    "degrees",
-    "grad",
-    "degré",
-    "degrés",
-    "percent",
-    "prozent",
-    "tenth",
-    "tenths",
-    "hundredth",
-    "hundredths",
-    "thousandth",
-    "third",
-    "quarter",
-    "fifth",
-    "twentieth",
-    "zehntel",
-    "hundertstel",
-    "half",
-    "dixième",
-];
-
-/// The words of a text in lower case.
-pub(super) fn words_of(text: &str) -> Vec<String> {
-    let words = text.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
-    words.map(str::to_lowercase).collect()
 }
 
 /// Whether a text states a number that may be about a part of a condition: a part in percent, a pure number, one of the same dimension,
@@ -89,17 +41,19 @@ pub(super) fn states_number(
         });
     let mut text = stated.as_str().to_string();
     settings.iter().for_each(|q| text = text.replace(&q.text, ""));
-    !about_it.is_empty() || states_size(&text) || shares_number(&text, condition.as_str())
+    !about_it.is_empty()
+        || states_size(&text, bound.stage().languages())
+        || shares_number(&text, condition.as_str())
 }
 
-/// Words before a time that is a setting: `after a second`.
-const AFTER: [&str; 5] = ["after", "in", "at", "nach", "après"];
-
 /// Whether a text says in words how large a difference is.
-fn states_size(text: &str) -> bool {
+fn states_size(text: &str, languages: Languages) -> bool {
     let words = words_of(text);
-    let is_setting = |i: usize| words.iter().take(i).rev().take(2).any(|word| AFTER.contains(&word.as_str()));
-    words.iter().enumerate().any(|(i, word)| SIZES.contains(&word.as_str()) && !is_setting(i))
+    let is = |word: &String, list: fn(&'static Comparison) -> &'static [&'static str]| {
+        languages.comparisons(list).any(|listed| listed == word)
+    };
+    let is_setting = |i: usize| words.iter().take(i).rev().take(2).any(|word| is(word, |c| c.after));
+    words.iter().enumerate().any(|(i, word)| is(word, |c| c.sizes) && !is_setting(i))
 }
 
 /// Factors between a number of a condition and that of its text: percent, and metric prefixes.
@@ -145,8 +99,8 @@ mod tests {
             assert!(shares_number(text, condition), "{text}");
         }
         assert!(
-            states_size("It grows by less than a tenth of a second.")
-                && !states_size("It is faster after a second.")
+            states_size("It grows by less than a tenth of a second.", Languages::ALL)
+                && !states_size("It is faster after a second.", Languages::ALL)
         );
         assert!(!shares_number("After 0.5 s both have the same speed.", "abs(b.v - a.v) < 0.3"));
     }

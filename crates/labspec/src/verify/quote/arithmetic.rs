@@ -1,7 +1,7 @@
 //! Words that compute with a number: `twice 0.5 s`, `tenfold 0.5 s`, `a tenth of 0.5 s`, `0.5 s times 10`. They are read in every
 //! language, whatever that of the lesson.
 
-use super::modifier::ends_with;
+use crate::language::words::ends_with;
 use crate::language::{Language, Languages};
 
 /// Whether the words at the end of a text in lower case multiply the number after them.

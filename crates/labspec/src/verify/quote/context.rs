@@ -3,9 +3,9 @@
 
 use super::arithmetic::is_multiplied;
 use super::denial::is_denied;
-use super::modifier::ends_with;
 use super::numeral::Chars;
 use crate::language::Languages;
+use crate::language::words::ends_with;
 use labspec_bind::units::{self, is_wide};
 
 pub(super) const BOUND: &str = "a bound, not a number";

@@ -2,6 +2,7 @@
 
 use super::denial::is_denied;
 use super::number::{NumberForm, Quoted, Style};
+use crate::language::words::ends_with;
 use crate::language::{Language, Languages};
 use labspec_bind::units::is_wide;
 
@@ -12,11 +13,6 @@ const UPPER_BOUND_SIGNS: [&str; 2] = ["<", "≤"];
 
 /// The largest part of a number that `about` leaves open.
 const ABOUT: f64 = 0.1;
-
-/// Whether a text ends with a word.
-pub(super) fn ends_with(text: &str, word: &str) -> bool {
-    text.strip_suffix(word).is_some_and(|rest| !rest.ends_with(char::is_alphanumeric))
-}
 
 /// The number with the interval that the words before it state, or its magnitude after `±`. `None` if they state no interval, or
 /// if they are negated.

@@ -3,9 +3,10 @@
 use super::modifier::{WordList, last_word};
 use super::number::NumberForm;
 use super::numeral::Chars;
-use super::option_text::{SMALLER, plain_text};
+use super::option_text::plain_text;
 use super::quantity::quantities;
-use crate::language::Languages;
+use crate::language::words::split_words;
+use crate::language::{Comparison, Languages};
 use labspec_bind::units;
 use labspec_expr::dimension::Dimension;
 use std::ops::Range;
@@ -36,45 +37,10 @@ impl OptionRatio {
     }
 }
 
-/// Words for factors.
-const FACTOR_WORDS: [(&str, f64); 36] = [
-    ("twice", 2.0),
-    ("double", 2.0),
-    ("doubles", 2.0),
-    ("doubled", 2.0),
-    ("half", 0.5),
-    ("halves", 0.5),
-    ("halved", 0.5),
-    ("triple", 3.0),
-    ("triples", 3.0),
-    ("tripled", 3.0),
-    ("treble", 3.0),
-    ("trebles", 3.0),
-    ("quadruple", 4.0),
-    ("quadruples", 4.0),
-    ("quadrupled", 4.0),
-    ("twofold", 2.0),
-    ("threefold", 3.0),
-    ("fourfold", 4.0),
-    ("fivefold", 5.0),
-    ("sixfold", 6.0),
-    ("tenfold", 10.0),
-    ("hundredfold", 100.0),
-    ("a third", 1.0 / 3.0),
-    ("one third", 1.0 / 3.0),
-    ("a quarter", 0.25),
-    ("one quarter", 0.25),
-    ("a tenth", 0.1),
-    ("two times", 2.0),
-    ("three times", 3.0),
-    ("four times", 4.0),
-    ("five times", 5.0),
-    ("six times", 6.0),
-    ("seven times", 7.0),
-    ("eight times", 8.0),
-    ("nine times", 9.0),
-    ("ten times", 10.0),
-];
+/// The words of every language are read.
+const ALL: Languages = Languages::ALL;
+/// One kind of words that compare.
+type Words = fn(&'static Comparison) -> &'static [&'static str];
 
 /// Numbers, and parts, of mixed factors: `two and a half times`.
 const NUMBER_WORDS: [(&str, f64); 7] =
@@ -82,57 +48,7 @@ const NUMBER_WORDS: [(&str, f64); 7] =
 const PART_WORDS: [(&str, f64); 4] =
     [("a half", 0.5), ("a third", 1.0 / 3.0), ("a quarter", 0.25), ("three quarters", 0.75)];
 
-/// Beginnings of verbs that state a decrease or an increase: `drops by a third` and `drops to a third` differ.
-pub(in crate::verify) const DECREASES: [&str; 8] =
-    ["los", "drop", "fall", "decreas", "shrink", "reduc", "sink", "declin"];
-pub(in crate::verify) const INCREASES: [&str; 6] = ["gain", "grow", "rise", "increas", "climb", "add"];
-
-/// Words for quantities, with units of each.
-const QUANTITY_WORDS: [(&str, &[&str]); 38] = [
-    ("long", &["s", "m"]),
-    ("longer", &["s", "m"]),
-    ("short", &["s", "m"]),
-    ("shorter", &["s", "m"]),
-    ("time", &["s"]),
-    ("duration", &["s"]),
-    ("period", &["s"]),
-    ("late", &["s"]),
-    ("later", &["s"]),
-    ("earlier", &["s"]),
-    ("deep", &["m"]),
-    ("deeper", &["m"]),
-    ("depth", &["m"]),
-    ("high", &["m"]),
-    ("higher", &["m"]),
-    ("height", &["m"]),
-    ("far", &["m"]),
-    ("farther", &["m"]),
-    ("distance", &["m"]),
-    ("length", &["m"]),
-    ("fast", &["m/s", "rad/s", "1/s"]),
-    ("faster", &["m/s", "rad/s", "1/s"]),
-    ("slow", &["m/s", "rad/s", "1/s"]),
-    ("slower", &["m/s", "rad/s", "1/s"]),
-    ("speed", &["m/s", "rad/s", "1/s"]),
-    ("velocity", &["m/s", "rad/s", "1/s"]),
-    ("often", &["1/s"]),
-    ("frequency", &["1/s"]),
-    ("energy", &["J"]),
-    ("force", &["N"]),
-    ("mass", &["kg"]),
-    ("heavy", &["kg", "N"]),
-    ("heavier", &["kg", "N"]),
-    ("power", &["W"]),
-    ("gravity", &["m/s^2"]),
-    ("acceleration", &["m/s^2", "rad/s^2"]),
-    ("stiff", &["N/m", "N m/rad"]),
-    ("stiffness", &["N/m", "N m/rad"]),
-];
-
-/// First words of a clause that states a setting: `with twice the gravity`, `if the stiffness is doubled`. The factor is at most this number
-/// of words behind them.
-const SETTING_WORDS: [&str; 11] =
-    ["if", "when", "whenever", "with", "at", "for", "from", "given", "under", "to", "suppose"];
+/// A factor of a setting is at most this number of words behind the first word of its clause: `with twice the gravity`.
 const SETTING_LENGTH: usize = 5;
 
 /// A negation is at most this number of words before a factor: `not quite twice`.
@@ -141,16 +57,12 @@ const NEGATION_LENGTH: usize = 2;
 /// The number of words behind a factor that tell what it is a factor of.
 const NEAR_WORDS: usize = 3;
 
-/// The words of a text.
-fn split_words(text: &str) -> impl Iterator<Item = &str> {
-    text.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty())
-}
-
 /// Whether a factor behind this text is that of a setting, not of a result: `with twice the gravity`.
 fn is_setting(before: &str) -> bool {
     let clause = before.rsplit(['.', ',', ';', ':', '?', '!']).next().unwrap_or("");
     let words: Vec<&str> = split_words(clause).collect();
-    words.first().is_some_and(|word| SETTING_WORDS.contains(word)) && words.len() <= SETTING_LENGTH
+    words.first().is_some_and(|word| ALL.ratios(|r| r.settings).any(|first| first == *word))
+        && words.len() <= SETTING_LENGTH
 }
 
 /// Whether a factor behind this text is denied: `but not twice as long`.
@@ -207,7 +119,7 @@ pub(in crate::verify) fn option_ratio(option: &str) -> Option<OptionRatio> {
     let is_bound =
         [WordList::LowerBound, WordList::UpperBound, WordList::SlightlyLess, WordList::SlightlyMore]
             .into_iter()
-            .any(|list| last_word(before, list, Languages::ALL).is_some());
+            .any(|list| last_word(before, list, ALL).is_some());
     let behind = folded.get(place.end..)?;
     if is_bound || is_setting(before) || is_denied(before) || is_of_unit(behind) {
         return None;
@@ -237,7 +149,7 @@ fn is_factor(before: &str) -> bool {
 
 /// The dimensions of the quantities that the words of a text name.
 pub(in crate::verify) fn named_quantities(text: &str) -> Vec<Dimension> {
-    let named = QUANTITY_WORDS.iter().filter(|(word, _)| split_words(text).any(|w| w == *word));
+    let named = ALL.ratios(|r| r.quantities).filter(|(word, _)| split_words(text).any(|w| w == *word));
     named.flat_map(|(_, units)| units.iter().filter_map(|unit| units::parse(unit))).collect()
 }
 
@@ -263,7 +175,7 @@ fn factor_words(lower: &str) -> Vec<(Range<usize>, f64)> {
         mixed.filter_map(|(words, x)| Some((place_of(&words)?, x))).collect();
     let is_in_mixed =
         |place: &Range<usize>| mixed.iter().any(|(m, _)| m.start < place.end && place.start < m.end);
-    let single = FACTOR_WORDS.iter().filter_map(|(word, x)| Some((place_of(word)?, *x)));
+    let single = ALL.ratios(|r| r.factors).filter_map(|(word, x)| Some((place_of(word)?, x)));
     let single: Vec<_> = single.filter(|(place, _)| !is_in_mixed(place)).collect();
     [mixed, single].concat()
 }
@@ -272,21 +184,23 @@ fn factor_words(lower: &str) -> Vec<(Range<usize>, f64)> {
 fn readings(x: f64, share: bool, before: &str, behind: &str) -> Vec<f64> {
     let next = split_words(behind).next().unwrap_or("");
     let is_part = share || x < 1.0;
-    let is_comparative = next == "more" || SMALLER.contains(&next) || next.len() > 4 && next.ends_with("er");
+    let is = |word: &str, words: Words| ALL.comparisons(words).any(|listed| listed == word);
+    let is_comparative =
+        is(next, |c| c.smaller) || is(next, |c| c.larger) || next.len() > 4 && next.ends_with("er");
     let again = split_words(behind).any(|w| w == "again");
-    let is_smaller = is_factor(before) && split_words(before).any(|w| SMALLER.contains(&w));
-    let verb = |stems: &[&str]| {
+    let is_smaller = is_factor(before) && split_words(before).any(|w| is(w, |c| c.smaller));
+    let verb = |stems: Words| {
         let mut all = split_words(before).chain(split_words(behind));
-        all.any(|word| stems.iter().any(|stem| word.starts_with(stem)))
+        all.any(|word| ALL.comparisons(stems).any(|stem| word.starts_with(stem)))
     };
     match () {
-        () if is_factor(before) && (is_smaller || verb(&DECREASES)) => vec![1.0 / x],
-        () if is_comparative && SMALLER.contains(&next) && is_part => vec![1.0 - x],
-        () if is_comparative && SMALLER.contains(&next) => vec![1.0 / x, 1.0 / (1.0 + x)],
+        () if is_factor(before) && (is_smaller || verb(|c| c.decreases)) => vec![1.0 / x],
+        () if is_comparative && is(next, |c| c.smaller) && is_part => vec![1.0 - x],
+        () if is_comparative && is(next, |c| c.smaller) => vec![1.0 / x, 1.0 / (1.0 + x)],
         () if (is_comparative || again) && is_part => vec![1.0 + x],
         () if is_comparative => vec![x, 1.0 + x],
-        () if is_part && verb(&DECREASES) => vec![x, 1.0 - x],
-        () if is_part && verb(&INCREASES) => vec![x, 1.0 + x],
+        () if is_part && verb(|c| c.decreases) => vec![x, 1.0 - x],
+        () if is_part && verb(|c| c.increases) => vec![x, 1.0 + x],
         () if share => vec![x, 1.0 - x, 1.0 + x],
         () => vec![x],
     }

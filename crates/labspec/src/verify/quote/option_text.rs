@@ -1,13 +1,14 @@
 //! The quantity that the text of an option states, with its precision according to the words.
 
 use super::context::BOUND;
-use super::modifier::{WordList, ends_with, last_word};
+use super::modifier::{WordList, last_word};
 use super::number::{NumberForm, Quoted};
 use super::numeral::Chars;
 use super::quantity::{Quantity, quantities};
 use super::unit_text::Unit;
 use super::{fold, html};
 use crate::language::Languages;
+use crate::language::words::ends_with;
 use labspec_bind::units;
 
 /// The quantity that an option states.
@@ -54,25 +55,6 @@ const ELSE: [&str; 14] = [
     "until",
     "before",
     "first",
-];
-
-/// Comparatives of smaller quantities; every other comparative is one of larger quantities.
-pub(in crate::verify) const SMALLER: [&str; 15] = [
-    "less",
-    "fewer",
-    "shorter",
-    "lower",
-    "smaller",
-    "slower",
-    "weaker",
-    "lighter",
-    "shallower",
-    "nearer",
-    "closer",
-    "earlier",
-    "sooner",
-    "narrower",
-    "softer",
 ];
 
 /// The text of an option without markup. Markers of bold and italic text are not products.
@@ -139,7 +121,7 @@ fn stated_range(q: &Quantity, before: &str, languages: Languages) -> Option<(f64
     let is_about = [WordList::Approximate, WordList::SlightlyLess].into_iter().any(states);
     let Quoted { value, half_unit, form, .. } = q.quoted;
     let is_share = q.unit.as_ref().is_some_and(|unit| unit.percentage().is_some());
-    let is_within = WITHIN.iter().any(|word| ends_with(before, word));
+    let is_within = languages.comparisons(|c| c.within).any(|word| ends_with(before, word));
     match (q.refused.or(is_within.then_some(BOUND)), form) {
         (None, NumberForm::Range(a, b) | NumberForm::PlusMinus(a, b)) => Some((a, b)),
         (None, _) => {
@@ -161,22 +143,12 @@ enum BoundSide {
     Below,
 }
 
-/// Words directly before a bound that turn it around: `no more than`.
-const NEGATIONS: [&str; 2] = ["no", "kein"];
-/// Words anywhere in the clause before a bound that do: `it never swings beyond`.
-const VERB_NEGATIONS: [&str; 10] =
-    ["not", "never", "cannot", "nicht", "nie", "niemals", "jamais", "nunca", "mai", "pas"];
-/// Words before a bound of a difference, which is another number than what is compared: `sinks by more than 1 cm`. A difference in percent is
-/// compared as one.
-const OF_DIFFERENCE: [&str; 3] = ["by", "um", "de"];
-/// Words before a bound of a result. In prose, they name a setting: `within 5 s, it is wrong by 5 %`.
-const WITHIN: [&str; 4] = ["within", "innerhalb von", "binnen", "en moins de"];
 /// The most characters before a number that are read.
 const CLAUSE: usize = 100;
 
 /// The side on which the bound lies that the words before a number state: `at least`, `later than`, `never more than`.
 fn side_of_bound(before: &str, is_share: bool, languages: Languages) -> Option<BoundSide> {
-    if WITHIN.iter().any(|word| ends_with(before, word)) {
+    if languages.comparisons(|c| c.within).any(|word| ends_with(before, word)) {
         return Some(BoundSide::Below);
     }
     let phrase = |list: WordList| last_word(before, list, languages);
@@ -184,17 +156,19 @@ fn side_of_bound(before: &str, is_share: bool, languages: Languages) -> Option<B
         (Some(lower), Some(upper)) if lower.len() > upper.len() => (BoundSide::Above, lower),
         (Some(lower), None) => (BoundSide::Above, lower),
         (_, Some(upper)) => (BoundSide::Below, upper),
-        (None, None) => comparative(before)?,
+        (None, None) => comparative(before, languages)?,
     };
     let rest = before.strip_suffix(words)?.trim_end();
-    if !is_share && OF_DIFFERENCE.iter().any(|word| ends_with(rest, word)) {
+    // A bound of a difference is about another number than what is compared: `sinks by more than 1 cm`.
+    if !is_share && languages.comparisons(|c| c.by).any(|word| ends_with(rest, word)) {
         return None;
     }
     let clause = rest.rsplit([',', ';', ':', '.']).next().unwrap_or(rest);
     let mut of_clause = clause.split(|c: char| !c.is_alphanumeric());
-    let negated = NEGATIONS.iter().any(|word| ends_with(rest, word))
+    // `no more than`; and `it never swings beyond`.
+    let negated = languages.comparisons(|c| c.negative_articles).any(|word| ends_with(rest, word))
         || clause.contains("n't")
-        || of_clause.any(|word| VERB_NEGATIONS.contains(&word));
+        || of_clause.any(|word| languages.comparisons(|c| c.negations).any(|negation| negation == word));
     Some(match (side, negated) {
         (BoundSide::Above, false) | (BoundSide::Below, true) => BoundSide::Above,
         _ => BoundSide::Below,
@@ -202,13 +176,15 @@ fn side_of_bound(before: &str, is_share: bool, languages: Languages) -> Option<B
 }
 
 /// A comparative before a number: `later than`.
-fn comparative(before: &str) -> Option<(BoundSide, &str)> {
+fn comparative(before: &str, languages: Languages) -> Option<(BoundSide, &str)> {
     let rest = before.strip_suffix("than")?.trim_end();
     let start = rest.rfind(|c: char| !c.is_alphabetic()).map_or(0, |i| i + 1);
     let word = rest.get(start..)?;
     let words = before.get(start..)?;
     match () {
-        () if SMALLER.contains(&word) => Some((BoundSide::Below, words)),
+        () if languages.comparisons(|c| c.smaller).any(|smaller| smaller == word) => {
+            Some((BoundSide::Below, words))
+        }
         () if word == "more" || word.len() > 4 && word.ends_with("er") => Some((BoundSide::Above, words)),
         () => None,
     }
