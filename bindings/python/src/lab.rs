@@ -96,7 +96,7 @@ impl Lab {
     /// Plays until a time, s, or until the lab stops by itself. Returns the number of steps.
     fn play_to(&self, py: Python<'_>, time: f64) -> PyResult<usize> {
         if !time.is_finite() {
-            return Err(PyValueError::new_err("a lab plays to a finite time"));
+            return Err(PyValueError::new_err("the time to play to must be finite"));
         }
         let mut steps = 0;
         loop {
@@ -235,7 +235,7 @@ impl Lab {
         every: usize,
     ) -> PyResult<(usize, Bound<'py, PyAny>)> {
         if every == 0 {
-            return Err(PyValueError::new_err("`every` counts steps from 1"));
+            return Err(PyValueError::new_err("`every` must be at least 1 step"));
         }
         let mut rows: Vec<f64> = Vec::new();
         let width = 1 + self.lock()?.displayed().len();

@@ -22,7 +22,7 @@ fn given_models(given: Option<&Bound<'_, PyAny>>) -> PyResult<GivenModels> {
         return Ok(GivenModels::Texts(texts));
     }
     let path = given.extract().map_err(|_| {
-        PyTypeError::new_err("models are the path of a folder, or a dictionary of MJCF by name")
+        PyTypeError::new_err("`models` must be the path of a folder, or a dictionary of MJCF by name")
     })?;
     Ok(GivenModels::Folder(path))
 }

@@ -23,7 +23,7 @@ pub(crate) fn record_run<'py>(
     every: usize,
 ) -> PyResult<Bound<'py, PyAny>> {
     if every == 0 {
-        return Err(PyValueError::new_err("`every` counts steps from 1"));
+        return Err(PyValueError::new_err("`every` must be at least 1 step"));
     }
     let options = RunOptions {
         until: given.until,

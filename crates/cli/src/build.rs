@@ -41,7 +41,7 @@ pub(super) struct BuildArguments {
     /// Write a content package of SCORM 2004 for each lesson into the folder `scorm` of the site
     #[arg(long)]
     scorm: bool,
-    /// The share of right answers that passes a package, from 0 to 1. Without it, lessons are neither passed nor failed
+    /// The share of correct answers needed to pass a package, from 0 to 1. Without it, lessons are neither passed nor failed
     #[arg(long, value_name = "SHARE", requires = "scorm", value_parser = share)]
     pass: Option<f64>,
     #[command(flatten)]

@@ -56,7 +56,7 @@ pub(super) struct VerifyArguments {
     /// Replace the baseline by the current findings
     #[arg(long, requires = "baseline")]
     update_baseline: bool,
-    /// Write the runs for a second judge: every run of every `verify` object, for tests/judge/record.mjs
+    /// Write a request for a cross-check: every run of every `verify` object, to be recorded by tests/judge/record.mjs
     #[arg(long, value_name = "FILE")]
     judge_request: Option<PathBuf>,
     /// Compare every measure with a recording of MuJoCo, and check every claim again with its numbers

@@ -113,17 +113,17 @@ pub(super) struct JudgeReport<'c> {
     compared: usize,
     /// Answers and quoted numbers that were judged again.
     verdicts: usize,
-    /// Those of them whose verdict is another one; each is a finding.
+    /// The number of verdicts that differ from those of labspec; each is a finding.
     turned: usize,
-    /// Claims that no judge is asked about, as they rest on other runs.
+    /// Claims that are not cross-checked, because they depend on runs that are not recorded.
     not_judged: Unjudged,
-    /// Runs that were recorded of another text.
+    /// The number of runs whose lesson or model has changed since the recording.
     stale_runs: usize,
     /// Runs that are not recorded.
     missing_runs: usize,
     /// Measures with another value.
     differing: Vec<DifferenceRow<'c>>,
-    /// Measures that the judge has not taken.
+    /// Measures that the recording does not contain.
     unjudged: Vec<UnjudgedRow<'c>>,
 }
 
@@ -196,7 +196,7 @@ pub(super) fn write_request(file: &Path, results: &CourseResults) -> Result<(), 
 pub(super) fn read(file: &Path) -> Result<ReferenceRecording, Failure> {
     let no = |why: &str| {
         format!(
-            "{} is not a recording of a judge: {why}; tests/judge/record.mjs makes one from the file of `--judge-request FILE`",
+            "{} is not a recording of a cross-check: {why}; tests/judge/record.mjs makes one from the file of `--judge-request FILE`",
             printable_path(file)
         )
     };

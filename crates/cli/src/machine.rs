@@ -15,14 +15,14 @@ use serde::Serialize;
 use serde_json::{Map, Value};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What `check` and `verify` found: every finding, what became of every claim, and the summary that the exit code follows from.
+/// The report of `check` and `verify`: every finding, the state of every claim, and the summary that determines the exit code.
 #[derive(Serialize, JsonSchema)]
 pub(super) struct CheckReport<'a> {
-    /// Everything that was found, in the order of paths and of places in a file.
+    /// All findings, ordered by path and by position in the file.
     findings: Vec<FindingRow<'a>>,
     /// The findings and the ledger in numbers.
     summary: SummaryRow,
-    /// What was found and is not among the findings.
+    /// Findings that are not in `findings`: ignored, in the baseline, or suppressed by the lesson.
     #[serde(rename = "aside")]
     suppressed: SuppressedRow<'a>,
     /// Every file that was checked, with what ran and what was judged.
@@ -31,7 +31,7 @@ pub(super) struct CheckReport<'a> {
     ledger: Vec<EntryRow<'a>>,
     /// What has changed since the check that `--since` names; null without it.
     pub(super) since: Option<&'a [LessonChange]>,
-    /// What a second judge makes of the claims (`--judge`); null without one.
+    /// The result of the cross-check with a recording of MuJoCo (`--judge`); null without one.
     pub(super) judge: Option<JudgeReport<'a>>,
 }
 
@@ -44,7 +44,7 @@ struct SummaryRow {
     warnings: usize,
     /// Findings that are notes.
     notes: usize,
-    /// What it all comes to: exit code 0, 1, 3, 0 (nothing that is not in the baseline), or 2.
+    /// The outcome: `clean` (exit code 0), `findings` (1), `partial` (3), `known` (0, all in the baseline), `nothing` (2).
     #[schemars(extend("enum" = Outcome::ALL.map(Outcome::as_str)))]
     outcome: &'static str,
     /// Claims by subject.
@@ -103,7 +103,7 @@ impl ClaimCounts {
 /// What was found and is not among the findings.
 #[derive(Serialize, JsonSchema)]
 struct SuppressedRow<'a> {
-    /// Findings of rules that were not asked for.
+    /// The number of findings of rules that are not selected or are ignored.
     ignored: usize,
     /// Findings that are in the baseline.
     #[serde(rename = "known")]
@@ -174,7 +174,7 @@ struct EntryRow<'a> {
     /// What became of it.
     #[schemars(with = "WordOf<State>")]
     state: String,
-    /// How it was found true; null for what is not.
+    /// The evidence for a true claim: `simulated` or `computed`; null for other states.
     #[schemars(extend("enum" = evidence_words()))]
     evidence: Option<&'static str>,
     /// The state in a word, for people.
@@ -219,7 +219,7 @@ pub(super) struct LessonRow<'a> {
     labs: Vec<LabRow<'a>>,
     /// What it claims.
     claims: Vec<ClaimRow<'a>>,
-    /// Of each lab, whether it shows what is stored of it; empty where no snapshot is stored.
+    /// For each lab, whether it matches its stored snapshot; empty if the lesson has no snapshot.
     snapshots: Vec<SnapshotRow<'a>>,
 }
 
@@ -242,9 +242,9 @@ pub(super) struct SnapshotRow<'a> {
     state: String,
     /// What changed about the lab, a clause each: a control, a trace, a setting.
     changes: &'a [String],
-    /// How many traces and readouts are not as stored, those of all runs together.
+    /// The number of traces and readouts that differ from the snapshot, over all runs.
     rows: usize,
-    /// The first value that is not as stored: of the first run with one, the earliest; null when all are.
+    /// The earliest value that differs from the snapshot in the first run that differs; null if none does.
     divergence: Option<DivergenceRow<'a>>,
     /// Why it could not be checked; empty otherwise.
     reason: &'a str,
@@ -268,7 +268,7 @@ struct DivergenceRow<'a> {
     /// The current value, with a digit more.
     #[serde(rename = "now")]
     current: &'a str,
-    /// How far a number may be off: half a unit of the last digit that is stored; null for what is no number.
+    /// The tolerance of a number: half a unit of its last stored digit; null if the stored value is not a number.
     tolerance: Option<f64>,
     /// The line of the snapshot, from 1.
     #[schemars(range(min = 1))]
@@ -426,9 +426,9 @@ struct AnswerRow<'a> {
 struct OptionRow {
     /// The option, from 0; null for the value of a numeric question.
     option: Option<usize>,
-    /// The condition holds; null where the author says that the evidence does not decide the option.
+    /// Whether the condition holds; null if the author marked the option as `undecided`.
     holds: Option<bool>,
-    /// How far the comparison that decides is from turning over, negative where it does not hold; null where there is none.
+    /// The margin of the deciding comparison, in its unit; negative if the condition does not hold; null without a comparison.
     #[schemars(with = "AnyNumber")]
     margin: Option<f64>,
     /// How much half and a quarter of the timestep, other integrators, a converged solver and a moved start change the margin; null

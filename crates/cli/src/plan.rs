@@ -22,7 +22,7 @@ pub(super) struct PlanArguments {
     lab: String,
     #[command(flatten)]
     models: ModelOptions,
-    /// Show the cost of one more reader: a field (data.sensordata), a sensor, or an expression
+    /// Show the cost of reading one more value: a field (data.sensordata), a sensor, or an expression
     #[arg(long, value_name = "NAME")]
     read: Vec<String>,
     /// Only make the plan; do not run or measure
@@ -87,11 +87,17 @@ fn human(report: &PlanReport) -> String {
             Some(more) => (String::new(), format!("(+{})", ns(more))),
             None => costs(r.cost),
         };
-        row(if r.keep { "keep" } else { "leave" }, &name(r.stage), share, time, &r.reason);
+        row(if r.keep { "keep" } else { "skip" }, &name(r.stage), share, time, &r.reason);
     }
     if let Some(step) = &report.step {
         let (share, time) = costs(Some(step.integrator));
-        row("", "integrator", share, time, "the next state, the test for NaN, and what a run looks after");
+        row(
+            "",
+            "integrator",
+            share,
+            time,
+            "the next state, the test for NaN, and the work of the run between steps",
+        );
         if let Some(when) = report.controller {
             let (share, time) = costs(step.controller);
             row("", "controller", share, time, when);
@@ -132,10 +138,10 @@ fn parts(report: &PlanReport, text: &mut String) {
         let _ = writeln!(text, "  keep   {n:>5}  {} and {}, {how}", shapes[0], shapes[1]);
     }
     for (reason, n) in &pairs.excluded {
-        let _ = writeln!(text, "  leave  {n:>5}  {reason}");
+        let _ = writeln!(text, "  skip   {n:>5}  {reason}");
     }
     if let Some(seen) = pairs.seen.filter(|_| pairs.can_touch > 0) {
-        let both = |[mean, most]: [f64; 2]| format!("{} in the mean, {most} at most", significant(mean));
+        let both = |[mean, most]: [f64; 2]| format!("{} on average, {most} at most", significant(mean));
         let _ = writeln!(text, "  bounds within reach  {}", both(seen.in_reach));
         let _ = writeln!(text, "  contacts             {}", both(seen.contacts));
     }
@@ -148,7 +154,7 @@ fn parts(report: &PlanReport, text: &mut String) {
             let [iterations, hardest] = seen.iterations;
             let _ = writeln!(
                 text,
-                "  rows {} in the mean, {most} at most; iterations {}, {hardest}",
+                "  rows: {} on average, {most} at most; iterations: {} on average, {hardest} at most",
                 significant(rows),
                 significant(iterations)
             );
@@ -169,7 +175,7 @@ fn sensors(report: &PlanReport, text: &mut String) {
     while let Some(first) = left.first().copied() {
         let (alike, others): (Vec<_>, Vec<_>) = left.into_iter().partition(|s| s.reason == first.reason);
         let names: Vec<&str> = alike.iter().map(|s| s.name.as_str()).collect();
-        let verb = if first.keep { "keep " } else { "leave" };
+        let verb = if first.keep { "keep " } else { "skip " };
         let _ = writeln!(text, "  {verb}  {}: {}", printable(&names.join(", ")), first.reason);
         left = others;
     }
@@ -180,7 +186,7 @@ fn tree_algorithms(report: &PlanReport, text: &mut String) {
     let _ = writeln!(text, "\ntree algorithms");
     for algorithm in report.tree_algorithms.iter().filter(|w| w.trees != [0; 3]) {
         let [places, forces, factors] = algorithm.trees;
-        let parts = [(places, "places"), (forces, "forces"), (factors, "accelerations")];
+        let parts = [(places, "poses"), (forces, "forces"), (factors, "accelerations")];
         let parts: Vec<String> =
             parts.iter().filter(|(n, _)| *n > 0).map(|(n, what)| format!("{what} of {n}")).collect();
         let _ = writeln!(text, "  keep   {}: {}", algorithm.name, parts.join(", "));
@@ -188,14 +194,14 @@ fn tree_algorithms(report: &PlanReport, text: &mut String) {
     let idle = report.tree_algorithms.iter().filter(|w| w.trees == [0; 3]).map(|w| w.name);
     let idle = idle.collect::<Vec<_>>().join(", ");
     if !idle.is_empty() {
-        let _ = writeln!(text, "  leave  {idle}: no tree takes them");
+        let _ = writeln!(text, "  skip   {idle}: no tree uses them");
     }
 }
 
 /// Writes the options in use, then the others by reason.
 fn list(what: &str, codes: &[EngineOption], text: &mut String) {
     let _ = writeln!(text, "\n{what}");
-    for verb in ["keep ", "leave"] {
+    for verb in ["keep ", "skip "] {
         let mut codes: Vec<&EngineOption> = codes.iter().filter(|c| c.keep == (verb == "keep ")).collect();
         while let Some(first) = codes.first().copied() {
             let alike = codes.iter().filter(|c| c.reason == first.reason).map(|c| c.name);
@@ -243,7 +249,7 @@ pub(super) struct PlanOutput<'a> {
     step: Option<Step>,
     /// The pairs of geoms.
     pairs: PairRow<'a>,
-    /// Every sensor of the model, in its order: one that nobody reads is left out by itself.
+    /// Every sensor of the model, in model order. A sensor whose values are not read is not computed.
     sensors: &'a [SensorRow],
     /// The constraint solver.
     solver: SolverRow<'a>,
@@ -252,7 +258,7 @@ pub(super) struct PlanOutput<'a> {
     /// The tree algorithms, and the number of trees that use each.
     #[serde(rename = "ways")]
     tree_algorithms: Vec<TreeAlgorithmRow>,
-    /// What more readers (`--read`) would cost, one by one; where there are several, then all of them together.
+    /// The cost of each additional reader (`--read`); with several, the last row is the cost of all of them together.
     readers: Vec<ReaderRow<'a>>,
 }
 
@@ -267,7 +273,7 @@ struct PlanStageRow<'a> {
     keep: bool,
     /// Why, or why not.
     reason: &'a str,
-    /// Its part of a step's time, of one; null where it does not run.
+    /// Its share of the time of a step, from 0 to 1; null if it does not run.
     share: Option<f64>,
     /// Its nanoseconds of a step.
     ns: Option<f64>,
@@ -287,15 +293,15 @@ struct Step {
     steps: usize,
     /// Nanoseconds of a step: the median of the repeats.
     ns: f64,
-    /// A quarter of the repeats is quicker.
+    /// The first quartile of the repeats, in nanoseconds.
     low_ns: f64,
-    /// A quarter of the repeats is slower.
+    /// The third quartile of the repeats, in nanoseconds.
     high_ns: f64,
-    /// The same if everything were read.
+    /// Nanoseconds of a step that computes every field.
     full_ns: f64,
     /// The work of a step as the engine counts it: the same on every machine.
     work: f64,
-    /// The next state, the look for numbers that are none, and what a run looks after between steps.
+    /// The next state, the test for NaN, and the work of the run between steps.
     integrator: CostRow,
     /// The lab's own program before the steps; null where it has none.
     controller: Option<ControllerRow>,

@@ -28,7 +28,7 @@ const STORED: StoredReport = StoredReport {
     output: OutputKind::Record,
 };
 
-/// Every verdict of a check with what is needed to come to it again: versions, the settings of every run, digests (SHA-256) of
+/// Every verdict of a check with everything needed to reproduce it: versions, the settings of every run, digests (SHA-256) of
 /// models and texts.
 #[derive(Debug, Serialize, Deserialize, JsonSchema)]
 pub(super) struct ReproductionRecord {

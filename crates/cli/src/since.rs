@@ -25,7 +25,7 @@ pub(super) struct LessonChange {
     causes: Vec<ChangedValue>,
 }
 
-/// Something that was one thing and is another.
+/// A verdict, value or setting that has changed.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[schemars(rename = "step")]
 struct ChangedValue {
@@ -38,7 +38,7 @@ struct ChangedValue {
     #[serde(rename = "now")]
     #[schemars(extend("type" = RECORDED_TYPES))]
     current: Value,
-    /// By how much a number has changed; null for what is none.
+    /// The change of a number, current minus previous; null for other values.
     difference: Option<f64>,
 }
 

@@ -312,7 +312,7 @@ fn summary(all: &[ReviewedSnapshot], asked: bool) -> String {
     text
 }
 
-/// What is stored of what the labs of lessons show, and whether it still is so.
+/// The stored output of the labs of lessons, and whether it still matches.
 #[derive(Serialize, JsonSchema)]
 pub(super) struct SnapshotReport<'a> {
     /// Every snapshot that is there or could be.
@@ -324,7 +324,7 @@ pub(super) struct SnapshotReport<'a> {
 struct FileRow<'a> {
     /// Its path: that of the lesson, with `.snap` behind.
     file: String,
-    /// How it stood before: none was stored, all as stored, something else, not readable, or its lesson gone.
+    /// The state of the file before the command: not stored, as stored, changed, unreadable, or without its lesson.
     #[schemars(extend("enum" = SnapshotStatus::ALL.map(SnapshotStatus::as_str)))]
     standing: &'static str,
     /// It was written anew, or removed.

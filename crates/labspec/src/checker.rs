@@ -70,7 +70,7 @@ impl Checker {
         self
     }
 
-    /// Sets the related texts by their paths: lessons whose labs others name, and snapshots. They are resolved from the
+    /// Sets the texts of related files by path: lessons whose labs the checked lesson names, and snapshots. They are resolved from the
     /// path of the checked lesson. No files are read.
     pub fn neighbours<P: AsRef<Path>, T: Into<String>>(
         mut self,

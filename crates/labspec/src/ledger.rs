@@ -178,7 +178,7 @@ pub struct Count {
     pub wrong: usize,
     /// Could not be checked.
     pub unchecked: usize,
-    /// Left out of this check: nothing was to be run, an error was ignored, or nothing is known of a widget.
+    /// Skipped in this check: `--no-run`, an ignored error, or an unknown widget.
     #[serde(rename = "leftOut")]
     pub skipped: usize,
     /// False or not checked, as in the baseline.

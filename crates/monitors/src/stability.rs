@@ -58,7 +58,7 @@ pub fn unstable_parts(m: &Model) -> Vec<UnstablePart> {
 
 /// Ratio of the largest to the smallest energy during an oscillation of the stiffest spring or servo. A symplectic step
 /// with s = hω/2 < 1 conserves a modified energy, and ½ m v² + ½ k x² is between 1 - s and 1 + s times that energy.
-/// Infinite beyond the stability limit.
+/// Dimensionless, at least 1; infinite beyond the stability limit.
 pub fn swing(m: &Model) -> f64 {
     let mut list = Vec::new();
     if !matches!(m.opt.integrator, integrator::DISCRETE | integrator::RK4) {

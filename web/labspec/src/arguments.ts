@@ -10,7 +10,7 @@ function described(x: unknown): string {
 }
 
 function wrong(what: string, expected: string, x: unknown): LabspecError {
-  return new LabspecError("wrong-type", `${what} is ${expected}, not ${described(x)}`);
+  return new LabspecError("wrong-type", `${what} must be ${expected}, not ${described(x)}`);
 }
 
 export function text(x: unknown, what: string): string {
@@ -47,7 +47,7 @@ export function numbers(x: unknown, what: string, length?: number): Float64Array
     list = Float64Array.from(x as number[]);
   } else throw wrong(what, "an array of numbers", x);
   if (length !== undefined && list.length !== length) {
-    throw new LabspecError("wrong-length", `${what} has ${length} numbers, not ${list.length}`);
+    throw new LabspecError("wrong-length", `${what} must have ${length} numbers, not ${list.length}`);
   }
   return list;
 }

@@ -18,7 +18,7 @@ export class Expression {
 
   /** Compiles a text, or several that share their `ctx` variables. */
   constructor(model: Model, text: string | readonly string[], kind: "expression" | "statements" = "expression") {
-    if (!(model instanceof Model)) throw new LabspecError("wrong-type", "an expression is compiled for a `Model`");
+    if (!(model instanceof Model)) throw new LabspecError("wrong-type", "an `Expression` must be created with a `Model`");
     const list = Array.isArray(text) ? (text as unknown[]).map((t) => check.text(t, "an expression")) : [check.text(text, "an expression")];
     if (kind !== "expression" && kind !== "statements") throw new LabspecError("wrong-type", "a text is an `expression` or `statements`");
     this.#texts = new Map(list.map((t, i) => [i === 0 ? "expression" : `expression ${i + 1}`, t]));
@@ -59,7 +59,7 @@ export class Expression {
     at: number,
     what: (raw: RawExpression, d: Parameters<RawExpression["number"]>[1], m: Parameters<RawExpression["number"]>[0], i: number) => T,
   ): T {
-    if (!(data instanceof Data)) throw new LabspecError("wrong-type", "an expression is evaluated with `Data`");
+    if (!(data instanceof Data)) throw new LabspecError("wrong-type", "an expression must be evaluated with `Data`");
     const index = check.count(at, "the number of an expression");
     const raw = this.#raw;
     if (raw === undefined) throw new LabspecError("freed", "this expression was freed");

@@ -111,7 +111,7 @@ export class FieldCache {
     if (!scalar) {
       const length = (this.get(field) as ArrayLike<number>).length;
       if (list.length !== length) {
-        throw new LabspecError("wrong-length", `\`${field.name}\` has ${length} numbers, not ${list.length}`);
+        throw new LabspecError("wrong-length", `\`${field.name}\` must have ${length} numbers, not ${list.length}`);
       }
     }
     call(() => this.#source.write(field.index, 0, list));

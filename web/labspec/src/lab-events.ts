@@ -58,7 +58,7 @@ export class Events {
   add(type: keyof LabEvents, listener: (event: never) => void, crossing?: Crossing): () => void {
     check.callback(listener, "a listener");
     if (type === "crossing") return this.#watch(listener as Watch["listener"], crossing);
-    if (!TYPES.includes(type)) throw new LabspecError("unknown-name", `the types of events are crossing, ${TYPES.join(", ")}`);
+    if (!TYPES.includes(type)) throw new LabspecError("unknown-name", `unknown type of event: use one of crossing, ${TYPES.join(", ")}`);
     if (type === "finding" && !this.has("finding")) this.#reported = this.#lab.findings.length;
     const list = this.#listeners.get(type) ?? new Set();
     this.#listeners.set(type, list.add(listener));
@@ -76,7 +76,7 @@ export class Events {
     const index = typeof number === "string" ? shown.findIndex((s) => s.label === number) : number;
     if (index === undefined || !Number.isInteger(index) || index < 0 || index >= shown.length) {
       const labels = shown.map((s) => `"${s.label}"`).join(", ");
-      throw new LabspecError("unknown-name", `a crossing is of a number that the lab shows: ${labels === "" ? "it shows none" : labels}`);
+      throw new LabspecError("unknown-name", `a crossing needs the label of a number that the lab displays: ${labels === "" ? "it displays none" : labels}`);
     }
     const level = check.number(crossing?.level, "a level");
     const watch: Watch = { index, level, listener, over: (numbers[index] ?? NaN) > level };

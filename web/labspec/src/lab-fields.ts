@@ -33,7 +33,7 @@ class ModelOfLab extends LabFields {
 
 function source(raw: () => RawLab): FieldSource {
   const fail = (): never => {
-    throw new LabspecError("read-only", "the fields of a lab are read here; controls write them, or a model of one's own (`toModel`)");
+    throw new LabspecError("read-only", "the fields of a lab are read-only here: move a control, or change a copy of the model (`toModel`)");
   };
   const copy = (index: number): unknown => call(() => raw().field(index));
   const number = (index: number): number => (copy(index) as ArrayLike<number>)[0] ?? NaN;

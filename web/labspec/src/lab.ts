@@ -133,7 +133,7 @@ export class Lab {
   set(label: string, value: ControlValue): void {
     const which = check.text(label, "a label");
     if (typeof value !== "number" && typeof value !== "string" && typeof value !== "boolean") {
-      throw new LabspecError("wrong-type", "a control takes a number, a string, true or false");
+      throw new LabspecError("wrong-type", "the value of a control must be a number, a string, true or false");
     }
     this.#do(["set", which, value], (raw) => raw.set(which, value));
   }
@@ -182,7 +182,7 @@ export class Lab {
   /** The same in pieces, between which the page gets its turn. */
   async play(time: number, options: PlayOptions = {}): Promise<number> {
     const until = check.number(time, "a time");
-    if (typeof options !== "object" || options === null) throw new LabspecError("wrong-type", "options are an object");
+    if (typeof options !== "object" || options === null) throw new LabspecError("wrong-type", "the options must be an object");
     const { signal, budget = 8, onProgress } = options;
     check.number(budget, "a budget");
     if (onProgress !== undefined) check.callback(onProgress, "`onProgress`");
@@ -229,7 +229,7 @@ export class Lab {
 
   /** Back to a saved state of this lab: from there on every number is the same, to the bit. */
   restore(state: LabState): void {
-    if (!(state instanceof LabState)) throw new LabspecError("wrong-type", "a state is what `save` gave");
+    if (!(state instanceof LabState)) throw new LabspecError("wrong-type", "`restore` takes a state that `save` returned");
     const { raw, actions } = LabState.parts(state);
     call(() => this.#lab().restore(raw));
     this.#actions = actions.slice();

@@ -177,7 +177,7 @@ export class Data {
   #poses: Float32Array | undefined;
 
   constructor(model: Model) {
-    if (!(model instanceof Model)) throw new LabspecError("wrong-type", "data are made for a `Model`");
+    if (!(model instanceof Model)) throw new LabspecError("wrong-type", "`Data` must be created with a `Model`");
     this.model = model;
     const glue = ready();
     this.#raw = call(() => new glue.RawData(Model.use(model)));
@@ -209,7 +209,7 @@ export class Data {
    */
   step(steps = 1, options: { readonly work?: number } = {}): void {
     const most = check.count(steps, "the number of steps", 100_000_000);
-    if (typeof options !== "object" || options === null) throw new LabspecError("wrong-type", "options are an object");
+    if (typeof options !== "object" || options === null) throw new LabspecError("wrong-type", "the options must be an object");
     const work = options.work === undefined ? undefined : check.count(options.work, "the work of a call", Number.MAX_SAFE_INTEGER);
     this.#with((raw, model) => raw.step(model, most, work));
   }

@@ -45,7 +45,7 @@ export class Course {
 
   async #find(place: string, findLabs: FindLabs): Promise<{ lab: LabOfLesson; lesson: LessonAround | null; path: string }> {
     const [, path = "", address = ""] = /^([^#]*)(#.*)?$/.exec(place) ?? [];
-    if (!isFileName(path) || !/\.(md|markdown|json)$/i.test(path)) throw new OpenError(`“${shorten(place)}” is no place of a lab: write LESSON.md#1.`);
+    if (!isFileName(path) || !/\.(md|markdown|json)$/i.test(path)) throw new OpenError(`“${shorten(place)}” is not the address of a lab: write LESSON.md#1.`);
     const text = await (await this.#fetch(path)).text();
     const labs = await findLabs(path, text);
     const lab = labs.find((one) => one.address === (address === "" ? "#1" : address));

@@ -29,12 +29,12 @@ export async function decodeProject(fragment: string): Promise<Project | null> {
   const version = Number(found[1]);
   if (version !== VERSION) {
     const age = version > VERSION ? "a newer" : "an older";
-    throw new OpenError(`This link was made by ${age} version of the playground (form ${version}; this page reads form ${VERSION}).`);
+    throw new OpenError(`This link was made by ${age} version of the playground (format ${version}; this page reads format ${VERSION}).`);
   }
   const text = found[2] ?? "";
   if (text.length > MOST_CHARACTERS) throw new OpenError(`This link is longer than ${MOST_CHARACTERS} characters, so it was not opened.`);
   const packed = fromAddressBase64(text);
-  if (packed === null || packed.length === 0) throw damaged("it has characters that no link has, or an end is missing");
+  if (packed === null || packed.length === 0) throw damaged("it contains invalid characters, or is incomplete");
   return readProject(await inflated(packed));
 }
 
@@ -69,7 +69,7 @@ function readProject(text: string): Project {
   if (names.length > MOST_FILES) throw new OpenError(`This link holds more than ${MOST_FILES} files, so it was not opened.`);
   if (!names.every(isFileName)) throw damaged("a file in it has a name that is not allowed");
   const texts = Object.entries(models).map(([name, xml]): [string, string] => {
-    if (typeof xml !== "string") throw damaged("a model in it is no text");
+    if (typeof xml !== "string") throw damaged("a model in it is not text");
     return [name, xml];
   });
   const binaries = Object.entries(files).map(([name, content]): [string, Uint8Array] => {

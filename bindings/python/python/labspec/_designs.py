@@ -31,9 +31,9 @@ def _design(name: str, lab: Lab, runs: int, labels: Sequence[str] | None, seed: 
     chosen = list(known) if labels is None else list(labels)
     unknown = [label for label in chosen if label not in known]
     if unknown:
-        raise KeyError(f'"{unknown[0]}" is no slider of the lab')
+        raise KeyError(f'"{unknown[0]}" is not a slider of the lab')
     if runs < 1 or not chosen:
-        raise ValueError("a design has a run and a slider, or more")
+        raise ValueError("a design needs at least one run and one slider")
     engine: Any = getattr(qmc, name)(d=len(chosen), rng=seed)
     points = engine.random(runs)
     return [{label: _placed(known[label], float(x)) for label, x in zip(chosen, row, strict=True)} for row in points]

@@ -36,7 +36,7 @@ class StoredSweep:
         plan = self._folder / "sweep.json"
         if plan.exists():
             if _digest_in(plan) != digest:
-                raise ValueError(f"{folder} has another sweep: name another folder, or remove it")
+                raise ValueError(f"{folder} contains a different sweep: name another folder, or delete this one")
         else:
             self._replace(plan, lambda path: path.write_text(json.dumps(described, indent=1), encoding="utf-8"))
 
@@ -51,9 +51,9 @@ class StoredSweep:
             rows = zip(*(columns[f"measure/{name}"] for name in self._measures), strict=True) if self._measures else ((),) * len(errors)
             found = [([] if error is not None else list(row), error) for row, error in zip(rows, errors, strict=True)]
         except (KeyError, ValueError, OSError, self._arrow.ArrowException) as e:
-            raise ValueError(f"{path} is no part of this sweep: {e}") from e
+            raise ValueError(f"{path} is not part of this sweep: {e}") from e
         if len(found) != len(runs):
-            raise ValueError(f"{path} is no part of this sweep: it has {len(found)} runs, not {len(runs)}")
+            raise ValueError(f"{path} is not part of this sweep: it has {len(found)} runs, not {len(runs)}")
         return found
 
     def write(self, index: int, runs: list[dict[str, Value]], results: list[Result]) -> None:

@@ -203,4 +203,4 @@ def _mapped(executor: Any, work: Work, chunks: list[Runs]) -> Iterator[list[Resu
         # What `joblib.delayed` makes of a call.
         yield from executor([(measure_task, (task,), {}) for task in tasks])
     else:
-        raise TypeError("an executor has `map` or `submit`, or is a `Parallel` of joblib")
+        raise TypeError("the executor must have `map` or `submit`, or be a `Parallel` of joblib")

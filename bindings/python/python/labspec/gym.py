@@ -53,7 +53,7 @@ class LabEnv(gymnasium.Env[NDArray[np.float64], NDArray[np.float32]]):
         ctrl_range: tuple[float, float] = (-1.0, 1.0),
     ) -> None:
         if frame_skip < 1:
-            raise ValueError("an action holds for one step or more")
+            raise ValueError("an action must hold for at least one step")
         texts = {"reward": reward, "terminated": terminated or "false"}
         added: list[dict[str, Any]] = []
         if actions == "ctrl":
@@ -158,7 +158,7 @@ def _state(model: Model) -> dict[str, str]:
 def _slider(lab: Lab, label: str) -> Control:
     found = next((c for c in lab.controls if c.label == label), None)
     if found is None or found.kind != "slider":
-        raise KeyError(f'"{label}" is no slider of the lab')
+        raise KeyError(f'"{label}" is not a slider of the lab')
     return found
 
 

@@ -85,10 +85,7 @@ fn environment(name: &str, install: impl FnOnce(&Path) -> Result<(), NotRun>) ->
 /// Makes an environment under another name, and renames it when it is complete.
 fn make(environment: &Path, install: impl FnOnce(&Path) -> Result<(), NotRun>) -> Result<(), NotRun> {
     let cannot = |e: std::io::Error| {
-        (
-            format!("{} cannot be made: {e}", environment.display()),
-            "check the folder of the cache".to_string(),
-        )
+        (format!("cannot create {}: {e}", environment.display()), "check the folder of the cache".to_string())
     };
     let new = environment.with_extension(format!("{}.new", std::process::id()));
     if let Some(folder) = new.parent() {

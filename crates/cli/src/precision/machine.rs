@@ -51,7 +51,7 @@ pub(in super::super) struct PrecisionReport<'a> {
     /// What each was compared with: its closed form, or what two families of methods agree on with tiny steps.
     #[schemars(with = "Vec<WordOf<Truth>>")]
     truth: Vec<String>,
-    /// The two families, in words; null where no method comes through the lab.
+    /// The two families of methods behind the reference, in words; null if no method completes the lab.
     reference: Option<&'a str>,
     /// The length of the runs, in seconds of simulation.
     length: f64,
@@ -62,13 +62,13 @@ pub(in super::super) struct PrecisionReport<'a> {
     /// What is not compared.
     #[serde(rename = "leftOut")]
     omitted: &'a [OmittedNumber],
-    /// Rows that no other beats in error and work, from the cheapest to the closest.
+    /// The Pareto front: indexes of the rows that no other beats in both error and work, cheapest first.
     front: &'a [usize],
-    /// What to take.
+    /// The recommended settings, each with its row and a sentence.
     advice: &'a [Advice],
     /// The unit of each trace, where it is known.
     units: Vec<Option<&'a str>>,
-    /// How far the reference of each trace may be off itself; null for a closed form.
+    /// The uncertainty of the reference of each trace, in the unit of the trace; null for a closed form.
     #[schemars(with = "AnyNumbers")]
     uncertainty: Vec<Option<f64>>,
     /// The largest error of each that nobody sees: half a unit of a readout's last digit, half a pixel of a plot. A readout that shows
@@ -94,7 +94,7 @@ pub(in super::super) struct PrecisionReport<'a> {
     samples: usize,
     /// Another program's runs of the same lab (`--beside`), against the same truth.
     beside: Option<BesideReport<'a>>,
-    /// How long two starts that nobody could tell apart show the same, where the reference is not known to the end.
+    /// How long two indistinguishable initial states give the same values; null if the reference is known to the end.
     nearby: Option<NearbyStarts>,
 }
 
@@ -128,7 +128,7 @@ struct PrecisionRunRow<'a> {
     compared: Vec<usize>,
     /// For each event: the number under `events` is what the event itself may be off; the error is at most that.
     events_below: Vec<bool>,
-    /// For each trace: its error is not above what the reference itself may be off.
+    /// For each trace: whether its error is within the uncertainty of the reference.
     below: Vec<bool>,
     /// The largest error of each trace over the run.
     #[schemars(with = "AnyNumbers")]
@@ -146,17 +146,17 @@ struct PrecisionRunRow<'a> {
     /// The observed order of each trace; null where there is none.
     #[schemars(with = "AnyNumbers")]
     orders: Vec<Option<f64>>,
-    /// How far each event is from its time, in seconds: never below what that may be off.
+    /// The timing error of each event, in seconds; at least the uncertainty of its reference time.
     #[schemars(with = "AnyNumbers")]
     events: Vec<Option<f64>>,
     /// The largest change of energy (J), of momentum (kg m/s) and of angular momentum (kg m²/s); null where the scene does not keep it.
     #[serde(rename = "kept")]
     #[schemars(with = "AnyNumbers")]
     conserved: [Option<f64>; 3],
-    /// How deep bodies were in each other at most, in metres.
+    /// The maximum penetration depth of two bodies during the run, in metres.
     #[schemars(with = "AnyNumber")]
     penetration: f64,
-    /// The largest error that is possible, as the reference is in doubt, too; in times of what nobody sees.
+    /// The largest possible error, including the uncertainty of the reference, in multiples of the largest invisible error.
     #[schemars(with = "AnyNumber")]
     score: f64,
     /// Measured run time, in microseconds for a second of simulation: the median of repeats.

@@ -60,7 +60,7 @@ pub(super) fn table(report: &PrecisionResults, text: &mut String) {
         }
     }
     text.push_str(
-        "\n* the setting of the lab; ‹ no other is both closer and cheaper; ≤ at most: the reference is no more exact\nwork: of the whole run, per simulated second, as the engine counts it, in units of about a microsecond; it decides\ntime: of that run, on this machine, with the spread of the middle half of its repeats\n",
+        "\n* the setting of the lab; ‹ no other is both more accurate and cheaper; ≤ an upper bound: the reference is no more accurate\nwork: of the whole run, per simulated second, as the engine counts it, in units of about a microsecond; it decides\ntime: of that run, on this machine, with the spread of the middle half of its repeats\n",
     );
 }
 

@@ -14,7 +14,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
 
-/// What goes wrong when a student does whatever can be done to a lab.
+/// The faults of a lab under every interaction that a student can make.
 #[derive(Serialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
 pub(in super::super) struct StabilityReport<'a> {
@@ -34,7 +34,7 @@ pub(in super::super) struct StabilityReport<'a> {
     skipped: Vec<String>,
     /// What goes wrong, the simplest setting first.
     findings: Vec<StabilityFindingRow<'a>>,
-    /// How long a student looks, in seconds: margins and sensitivity are of runs of this length.
+    /// The length of the runs for margins and sensitivity, in seconds: as long as a student watches.
     window: f64,
     /// How far everything may be raised before the lab breaks; empty without --margins.
     margins: Vec<MarginRow<'a>>,
@@ -104,7 +104,7 @@ struct FaultRow<'a> {
     time: f64,
     /// The joint, the body, or the two that touch, in words.
     who: &'a str,
-    /// Why, as far as that is known, in words.
+    /// The likely cause, in words.
     cause: &'a str,
     /// The numbers that show it.
     evidence: Vec<EvidenceRow>,
@@ -132,7 +132,7 @@ struct EvidenceRow {
 struct StabilityFindingRow<'a> {
     #[serde(flatten)]
     fault: FaultRow<'a>,
-    /// It takes a touch that nobody sees, a speed of 1e-6 of every joint at the start.
+    /// Whether it occurs only after a small perturbation: every joint starts with a speed of 1e-6.
     touched: bool,
     /// How many settings show it.
     #[schemars(range(min = 1))]
@@ -145,13 +145,13 @@ struct StabilityFindingRow<'a> {
     worst: Option<FaultRow<'a>>,
 }
 
-/// A change with which the run comes to its end well.
+/// A change after which the run completes without a fault.
 #[derive(Serialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
 struct RemedyRow<'a> {
     /// What to change, in words.
     change: &'a str,
-    /// What a second of simulation costs with it, in times of what it costs in the lab as it stands.
+    /// The work per simulated second with this change, relative to that of the unchanged lab.
     #[schemars(with = "AnyNumber")]
     work: f64,
     /// The same as measured by a clock.
@@ -208,7 +208,7 @@ struct SensitivityRow<'a> {
     /// How far the other start is off, in the unit of each coordinate.
     #[serde(rename = "apart")]
     distance: f64,
-    /// How many times as large a small difference at the start is at the end; null where nothing moves or the lab does not come to its
+    /// The factor by which a small initial difference grows until the end; null if nothing moves or the lab does not reach its
     /// end.
     parting: Option<WithNonfinite<PartingRow>>,
     /// The largest Lyapunov exponent, in 1/s; null where small differences do not grow exponentially.

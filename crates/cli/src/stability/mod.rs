@@ -176,7 +176,7 @@ fn margins(report: &StressReport, text: &mut String) {
     let length = labspec::verify::significant(report.window);
     let _ = writeln!(
         text,
-        "\nThe largest values with which nothing goes wrong in {length} s, as the lab stands and after a touch (except for creeping):"
+        "\nThe largest values at which nothing but creep goes wrong within {length} s, for the lab as it stands and after a small perturbation:"
     );
     for row in &rows {
         let cells = row.iter().zip(&widths).enumerate().map(|(k, (cell, w))| match k {

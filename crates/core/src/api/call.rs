@@ -326,7 +326,7 @@ pub fn object_acceleration<S: Scope>(
     Ok(object::object_acceleration(m, &d.fields, kind, id, local))
 }
 
-/// qpos ← qpos advanced for a time `h` with velocity `v` (`mj_integratePos`).
+/// qpos (nq) ← qpos advanced for a time `h`, s, with the velocity `v` (nv) (`mj_integratePos`).
 pub fn integrate_pos(m: &Model, qpos: &mut [f64], v: &[f64], h: f64) -> Result<(), Error> {
     check_length("the position", m.nq, qpos.len())?;
     check_length("the velocity", m.nv, v.len())?;
@@ -334,7 +334,7 @@ pub fn integrate_pos(m: &Model, qpos: &mut [f64], v: &[f64], h: f64) -> Result<(
     Ok(())
 }
 
-/// The velocity that leads from `from` to `to` in a time `h` (`mj_differentiatePos`). Rotations take the shorter direction.
+/// The velocity (nv) that leads from `from` to `to` (nq each) in a time `h`, s (`mj_differentiatePos`), by the shorter rotation.
 pub fn differentiate_pos(m: &Model, h: f64, from: &[f64], to: &[f64]) -> Result<Vec<f64>, Error> {
     check_length("a position", m.nq, from.len())?;
     check_length("a position", m.nq, to.len())?;
@@ -349,7 +349,7 @@ pub fn servo_gains(m: &Model, actuator: usize) -> Option<[f64; 2]> {
     actuation::servo_gains(m, actuator)
 }
 
-/// The energy at `qpos` and `qvel`, for the current controls. `None` if an actuator has no potential, because it may add energy.
+/// The energy, J, at `qpos` and `qvel`, for the current controls. `None` if an actuator has no potential: it may add energy.
 /// Computes poses and lengths only.
 ///
 /// # Errors
@@ -361,7 +361,7 @@ pub fn mechanical_energy<S: Scope>(m: &Model, d: &mut Data<S>) -> Result<Option<
     Ok(balance::mechanical_energy(m, d, s))
 }
 
-/// The energy of the poses and lengths at hand, at `qpos` and `qvel`, for the current controls; see [`mechanical_energy`]. They
+/// The energy, J, of the current poses and lengths, for the current `qpos`, `qvel` and controls; see [`mechanical_energy`]. They
 /// come from an earlier computation, or from [`copy_poses`].
 ///
 /// # Errors

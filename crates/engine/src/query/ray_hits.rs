@@ -41,7 +41,7 @@ impl RayFilter {
 /// The nearest geom on a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RayHit {
-    /// Distance as a multiple of the length of the ray's direction.
+    /// x of the hit: the distance in multiples of the length of `along`; in m if `along` is a unit vector.
     pub distance: f64,
     /// The geom.
     pub geom: usize,
@@ -49,7 +49,7 @@ pub struct RayHit {
     pub normal: Vec3,
 }
 
-/// The nearest geom on the ray `from` + x `along`, x ≥ 0 (`mj_ray`). A direction of length zero hits nothing.
+/// The nearest geom on the ray `from` + x `along`, x ≥ 0, world frame, m (`mj_ray`). A direction of length zero hits nothing.
 pub fn ray(m: &Model, d: &Fields, from: Vec3, along: Vec3, filter: &RayFilter) -> Option<RayHit> {
     counted_ray(m, d, from, along, filter, &mut 0)
 }

@@ -243,7 +243,7 @@ impl ClaimChecker<'_> {
             resolve_labs(self.lesson, self.ready, verify, lab, &self.stage, findings)
         else {
             let reported = findings.len() > before;
-            let reason = if reported { "a run cannot be made" } else { "its lab cannot run" };
+            let reason = if reported { "a run cannot be executed" } else { "its lab cannot run" };
             return verify::not_executable(verify, question, reason);
         };
         for (run, scenes) in verify.runs.iter().zip(&runs) {

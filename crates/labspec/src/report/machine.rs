@@ -151,7 +151,7 @@ pub struct PlaceFields<'a> {
     /// Column behind the last character, from 1.
     #[cfg_attr(feature = "report", schemars(range(min = 1)))]
     end_column: Option<usize>,
-    /// The same as editors count it: a `Range` of the Language Server Protocol.
+    /// The same location as a `Range` of the Language Server Protocol: lines from 0, characters in UTF-16 code units.
     range: Option<EditorRange>,
 }
 

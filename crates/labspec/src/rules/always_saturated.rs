@@ -38,7 +38,7 @@ pub(crate) fn check_saturation(observed: &ObservedLab<'_>, findings: &mut Vec<Fi
         findings.push(
             Finding::warning(ALWAYS_SATURATED, ready.lab.place(), format!("{subject} is outside its range all the time"))
                 .why(format!(
-                    "it is {} in the run as the lab stands, its `ctrlrange` goes from {low} to {high}, and it is outside at every sample of {}: the engine clamps it",
+                    "it is {} in the run of the lab as it stands, but its `ctrlrange` is {low} to {high}; it is outside this range at every sample of {}, so the engine clamps it",
                     digits(*value, 4), observed.runs()
                 ))
                 .help("check the unit and the gain of what computes it, or widen `ctrlrange`"),

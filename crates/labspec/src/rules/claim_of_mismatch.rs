@@ -6,7 +6,7 @@ pub const CLAIM_OF_MISMATCH: &Rule = &Rule {
     severity: Severity::Error,
     exceptions: &[],
     layer: Layer::Claim,
-    summary: "a claim holds only because a program changes a parameter and not the parameter that belongs to it",
+    summary: "a claim holds only because a program changes a parameter without the parameter that depends on it",
     why: "a heavier ball with the inertia of a light one rolls faster than any real ball: the claim is checked again with the other parameter corrected, and then it is false",
     bad: Example::Lesson(WRONG_LESSON),
     good: Example::Lesson(RIGHT_LESSON),

@@ -6,7 +6,7 @@ pub const CLAIM_WITHOUT_NUMBER: &Rule = &Rule {
     severity: Severity::Error,
     exceptions: &[],
     layer: Layer::Claim,
-    summary: "an expression that must give a number gives none",
+    summary: "an expression that must be a number has no numeric value",
     why: "there is no number to compare the claim with",
     bad: Example::Question(
         r##"{"kind": "numeric", "q": "When does it land?", "answer": 0.44, "tol": 0.01, "explain": "Half a second.",

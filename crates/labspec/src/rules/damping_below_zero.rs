@@ -13,7 +13,7 @@ pub const DAMPING_BELOW_ZERO: &Rule = &Rule {
     severity: Severity::Warning,
     exceptions: &[],
     layer: Layer::Run,
-    summary: "a damping is negative",
+    summary: "a damping coefficient is negative",
     why: "a damper takes energy from a moving part; a negative damping adds energy. Friction, a limit or a motor may hide it for a while. The rule skips a damping that a control sets, or that the lab calls negative",
     bad: Example::Lab(
         r#"{"xml": "<mujoco><worldbody><geom name='floor' type='plane' size='1 1 1'/><body name='ball' pos='0 0 1'><joint type='slide' axis='0 0 1'/><joint type='hinge' axis='0 1 0'/><geom name='ball' size='.05' mass='1'/></body></worldbody></mujoco>", "setup": "⟦model.dof_damping.fill(-0.5)⟧", "stopAt": 0.3, "readouts": [{"label": "height (m)", "expr": "data.xpos[5]"}]}"#,
@@ -55,7 +55,7 @@ pub(crate) fn check_damping(observed: &ObservedLab<'_>, findings: &mut Vec<Findi
             format!("the damping `model.dof_damping[{dof}]` is negative: {damping}"),
         )
         .why(format!("{done} it adds {power} W at t = {time} s, where a damper removes energy"))
-        .help("write a damping of 0 or more; to drive the joint, write an actuator"),
+        .help("set the damping to 0 or more; to drive the joint, add an actuator"),
     );
 }
 

@@ -111,9 +111,9 @@ fn unknown_route(link: &Link) -> Finding {
     let mut finding = Finding::new(
         DEAD_LINK,
         link.span.clone(),
-        format!("`{}` is a page of the site, and no setting states which file it is", shorten(&link.target)),
+        format!("`{}` is a page of the site, but `routes` does not state its file", shorten(&link.target)),
     )
-    .why("a link to a page that does not exist is not found")
+    .why("without `routes`, a link to a missing page is not reported")
     .help("write its form in labspec.toml, for example routes = { \"#/lesson/{}\" = \"lessons/{}.md\" }");
     finding.link = Some(link.target.as_str().into());
     finding

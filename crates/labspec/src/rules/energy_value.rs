@@ -15,7 +15,7 @@ pub const ENERGY_VALUE: &Rule = &Rule {
     severity: Severity::Warning,
     exceptions: &[],
     layer: Layer::Run,
-    summary: "what is labelled as kinetic or potential energy is another multiple of it in all samples of a run",
+    summary: "a value labelled as kinetic or potential energy differs from that energy by the same factor in every sample of a run",
     why: "a factor is missing, such as ½, or a sign, or the mass or the gravity is that of another scene. The rule compares the displayed values with the energies of the engine, in scenes with one moving object",
     bad: Example::Lab(
         r#"{"xml": "<mujoco><worldbody><body pos='0 0 1'><freejoint/><geom size='.05' mass='2'/></body></worldbody></mujoco>", "stopAt": 0.4, "readouts": [{"label": "⟦kinetic energy (J)⟧", "expr": "model.body_mass[1] * data.qvel[2] ** 2"}]}"#,
@@ -178,7 +178,7 @@ fn compared(one: &Labelled<'_>) -> Option<Finding> {
         Finding::new(
             ENERGY_VALUE,
             one.label.span(),
-            format!("the values of this label are {factor} times the {name} energy of the scene"),
+            format!("the values under this label are {factor} times the {name} energy of the scene"),
         )
         .why(match one.energy {
             Energy::Kinetic => format!("in a run of the lab, it is {y} J where the engine has {e} J, and the factor is the same in {} samples", samples.len()),

@@ -10,7 +10,7 @@ pub const EXCHANGED_OPTIONS: &Rule = &Rule {
     severity: Severity::Warning,
     exceptions: &[],
     layer: Layer::Structure,
-    summary: "the texts of options state the values of each other",
+    summary: "the texts of two or more options are swapped: each states the value of another one",
     why: "a student chooses one value, and the lab uses another one. The rule reports a select in which the text of every option has one number, and these numbers are the values of the options in another order",
     bad: Example::Lab(
         r#"{"model": "ball", "controls": [{"type": "select", "label": "place", "set": "model.opt.gravity[2]", "options": [["Moon (1.62 m/s²)", ⟦-9.81⟧], ["Earth (9.81 m/s²)", -1.62]], "value": -9.81}]}"#,

@@ -11,7 +11,7 @@ pub const FORCE_STAYS: &Rule = &Rule {
     severity: Severity::Warning,
     exceptions: &[],
     layer: Layer::Program,
-    summary: "a button applies a force, and nothing takes it away",
+    summary: "a button applies a force that is never removed",
     why: "an applied force acts until it is set again: what looks like a kick pushes until the next reset",
     bad: Example::Lab(
         r#"{"xml": "<mujoco><worldbody><body name='rod'><joint name='hinge' axis='0 1 0' damping='0.1'/><geom type='capsule' size='.02' fromto='0 0 0 0 0 -1'/></body></worldbody></mujoco>", "stopAt": 1, "setup": "data.qpos[0] = 0.5", "controls": [{"type": "button", "label": "Kick", "run": "⟦data.qfrc_applied[0] = 3⟧"}], "readouts": [{"label": "angle", "expr": "data.qpos[0]", "digits": 1}]}"#,
@@ -50,7 +50,7 @@ pub(crate) fn check_buttons(lab: &Lab, programs: &Programs, findings: &mut Vec<F
             Finding::new(
                 FORCE_STAYS,
                 run.span_of(first.span.into()),
-                format!("nothing takes away the force that \"{}\" applies", control.label.value),
+                format!("the force that \"{}\" applies is never removed", control.label.value),
             )
             .help(format!(
                 "for a kick, change the velocity, as `data.qvel[0] += 1`; or set `{}` to 0 again in `controller`",

@@ -31,7 +31,7 @@ fn check_question(question: &Question, findings: &mut Vec<Finding>) {
         let message = format!("a tolerance of {} accepts only {}", tol.value, answer.value);
         findings.push(
             Finding::new(IMPOSSIBLE_TOLERANCE, tol.span.clone(), message)
-                .why("the tolerance is less than a billionth of the answer, and nobody types so many digits")
+                .why("the tolerance is less than a billionth of the answer, so an answer would need more digits than anyone types")
                 .help("write how far an answer may be off, in its unit; delete `tol` for 2 %, or write 0 for a count"),
         );
     } else if tol.value < 0.0 || (tol.value == 0.0 && !whole) {

@@ -141,7 +141,7 @@ fn describe_bracket(mistake: &Mistake) -> Option<MessageParts> {
             format!("this `{first}` closes nothing"),
             "delete it, or look for a bracket that closes too early",
         ),
-        Mistake::StrayQuote => message_with_help("this `\"` begins no text", "delete it"),
+        Mistake::StrayQuote => message_with_help("this `\"` does not begin a string", "delete it"),
         Mistake::OtherBracket { expected, found } => {
             let what = if *expected == '}' { "an object" } else { "a list" };
             message_with_help(format!("`{found}` is used where {what} ends"), format!("write `{expected}`"))
@@ -159,7 +159,7 @@ fn describe_bracket(mistake: &Mistake) -> Option<MessageParts> {
             "there is text after the end of the JSON value",
             "delete it, move it after the closing ```, or look for a bracket that closes too early",
         )
-        .why("one fence holds one object, so nothing reads the rest"),
+        .why("one fence holds one object, so the rest is ignored"),
         _ => return None,
     })
 }
@@ -231,9 +231,10 @@ fn describe_string(mistake: &Mistake) -> Option<MessageParts> {
             "write the text on one line, with `\\n` where it breaks",
         )
         .why(ONE_LINE),
-        Mistake::Escape('\\') => {
-            message_with_help("a backslash escapes nothing", "write `\\\\` for a backslash")
-        }
+        Mistake::Escape('\\') => message_with_help(
+            "this backslash is not followed by an escape character",
+            "write `\\\\` for a backslash",
+        ),
         Mistake::Escape(c) => message_with_help(
             format!("`\\{c}` is not a JSON escape"),
             format!("write `\\\\{c}` for a backslash"),

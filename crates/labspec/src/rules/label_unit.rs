@@ -260,7 +260,7 @@ pub(crate) fn unconverted_parameter(
         };
         Some(
             Finding::new(LABEL_UNIT, unit_text(control).span(), message)
-                .why(format!("the lab takes a number of {given} for a number of {needed}"))
+                .why(format!("the lab reads a number in {given} as if it were in {needed}"))
                 .related(bound.text.span_of(stored.span.into()), "it is stored here")
                 .help(help),
         )

@@ -12,7 +12,7 @@ pub const NEAR_ITS_LIMIT: &Rule = &Rule {
     exceptions: &[],
     layer: Layer::Run,
     summary: "the lab breaks at twice its timestep",
-    why: "at its own timestep it works, but a slightly stiffer model or a page with longer steps breaks it",
+    why: "it works at its own timestep, but a slightly stiffer model or a page with longer steps would break it",
     bad: Example::Lab(
         r#"{"xml": "⟦<mujoco><worldbody><body name='rod'><joint name='hinge' axis='0 1 0' stiffness='8000'/><geom type='capsule' size='.02' fromto='0 0 0 0 0 -.5' mass='.2'/></body></worldbody></mujoco>⟧", "setup": "data.qpos[0] = 0.001", "stopAt": 2, "readouts": [{"label": "angle (rad)", "expr": "data.qpos[0]"}]}"#,
     ),
@@ -54,7 +54,7 @@ pub(crate) fn check_margin(
     );
     Some(
         Finding::plain(NEAR_ITS_LIMIT, ready.lab.place(), message)
-            .why(format!("at its own timestep its {} were fine, but a slightly stiffer model or a page with longer steps breaks it", counted(runs, "run")))
+            .why(format!("at its own timestep its {} were fine, but a slightly stiffer model or a page with longer steps would break it", counted(runs, "run")))
             .help(format!("{}; `labspec stability --margins` finds how far every value can be raised", fault.cause)),
     )
 }

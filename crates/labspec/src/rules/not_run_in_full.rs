@@ -12,7 +12,7 @@ pub const NOT_RUN_IN_FULL: &Rule = &Rule {
     exceptions: &[],
     layer: Layer::Run,
     summary: "a lab was not run in full, and no other finding says why",
-    why: "a check limits the work of its runs, so that nothing is known of the rest, and the check fails. `stopAt` and `window` are in seconds",
+    why: "a check limits the work of its runs; the rest of the lab is not tested, so the check fails. `stopAt` and `window` are in seconds",
     bad: Example::Lab(
         r#"{"xml": "<mujoco><worldbody><body name='rod'><joint name='hinge' axis='0 1 0'/><geom type='capsule' size='.02' fromto='0 0 0 0 0 -1'/></body></worldbody></mujoco>", "setup": "data.qvel[0] = 1", "stopAt": ⟦30000⟧, "readouts": [{"label": "angle", "expr": "data.qpos[0]", "digits": 1}]}"#,
     ),
@@ -44,11 +44,11 @@ fn of_lab(tried: &Coverage, lab: &Lab) -> Finding {
     let about = |place, message: String| Finding::new(NOT_RUN_IN_FULL, place, message);
     if tried.covered >= tried.requested {
         let runs = counted(tried.skipped, "run");
-        return about(lab.place(), format!("{runs} of this lab could not be made"))
+        return about(lab.place(), format!("the check skipped {runs} of this lab"))
             .help("shorten `stopAt`, or use fewer controls");
     }
     let [covered, requested] = [tried.covered, tried.requested].map(seconds);
-    let message = format!("this lab ran for {covered} of {requested} s only");
+    let message = format!("this lab ran for only {covered} of {requested} s");
     let widest = lab.plots.iter().filter_map(|p| p.window.as_ref());
     let longest = widest.max_by(|a, b| a.value.total_cmp(&b.value));
     let positive = |n: &&Number| n.value > 0.0;

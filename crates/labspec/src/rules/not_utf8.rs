@@ -8,7 +8,7 @@ pub const NOT_UTF8: &Rule = &Rule {
     exceptions: &[],
     layer: Layer::Source,
     summary: "a file is not UTF-8",
-    why: "a page reads lessons as UTF-8, so letters beyond plain English appear as a black diamond",
+    why: "a page reads lessons as UTF-8, so letters outside ASCII appear as �",
     bad: Example::Files(&[("lesson.md", b"A fall of 5 \xe2\x9f\xa6\xb5\xe2\x9f\xa7m.\n")]),
     good: Example::Files(&[("lesson.md", b"A fall of 5 \xc2\xb5m.\n")]),
 };

@@ -14,7 +14,7 @@ pub const NUMBERS_UNCLAIMED: &Rule = &Rule {
     severity: Severity::Note,
     exceptions: &[],
     layer: Layer::Claim,
-    summary: "the lesson states numbers with units that neither a `verify` quotes nor the output of a listing has",
+    summary: "the lesson states numbers with units that no `verify` quotes and no listing prints",
     why: "every check recomputes a quoted number, and `labspec check --listings` the outputs of listings, whose numbers count as claimed (`printedNumber` in reports); any other number may become wrong when the model changes",
     bad: Example::Lesson(
         "It touches the floor after ⟦0.442 s⟧, at 4.43 m/s, and falls 1 m.\n\n```lab simlab\n{\"model\": \"ball\", \"readouts\": [{\"label\": \"height (m)\", \"expr\": \"data.qpos[2]\"}]}\n```\n",

@@ -54,7 +54,7 @@ pub(crate) fn check_trace_range(
     Some(
         Finding::warning(OUTSIDE_PLOT, trace.expr.span(), message)
             .why(format!(
-                "as the lab stands it goes from {least} to {largest}, and is inside for {} of the time; in {} it is inside for at most {}",
+                "in the run of the lab as it stands, it goes from {least} to {largest} and is inside for {} of the time; in {}, it is inside for at most {} of the time",
                 percent(nominal_share),
                 observed.runs(),
                 percent(most)

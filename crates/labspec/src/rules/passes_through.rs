@@ -7,7 +7,7 @@ pub const PASSES_THROUGH: &Rule = &Rule {
     exceptions: &[],
     layer: Layer::Run,
     summary: "a body passes through another one",
-    why: "it moves farther in a step than the other body is thick, so no step finds a contact: a student sees walls that hold nothing",
+    why: "it moves farther in a step than the other body is thick, so no step finds a contact: a student sees bodies pass through walls",
     bad: Example::Lab(
         r#"{"xml": "⟦<mujoco><worldbody><geom name='plate' type='box' size='1 1 .0005'/><body name='ball' pos='0 0 .3'><freejoint/><geom name='ball' size='.01' mass='.1'/></body></worldbody></mujoco>⟧", "setup": "data.qvel[2] = -3", "stopAt": 0.5, "readouts": [{"label": "shown", "expr": "data.qpos[0]"}]}"#,
     ),

@@ -9,7 +9,7 @@ pub const QUESTION_UNIT: &Rule = &Rule {
     severity: Severity::Warning,
     exceptions: &[],
     layer: Layer::Structure,
-    summary: "the text of a numeric question asks for another unit than the one beside the field of its answer",
+    summary: "the text of a numeric question asks for a different unit than the one displayed beside the answer field",
     why: "a student who answers in the unit of the text is graded as wrong",
     bad: Example::Quiz(
         r#"{"id": "fall", "questions": [{"kind": "numeric", "q": "How fast does it land, in km/h?", "answer": 4.43, "tol": 0.05, "unit": "⟦m/s⟧"}]}"#,

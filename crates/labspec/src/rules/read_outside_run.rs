@@ -6,7 +6,7 @@ pub const READ_OUTSIDE_RUN: &Rule = &Rule {
     severity: Severity::Error,
     exceptions: &[],
     layer: Layer::Claim,
-    summary: "a claim reads the simulation at no time of the run",
+    summary: "a claim reads the simulation without choosing a time of the run",
     why: "a run has many samples, and the claim does not say which one it means: the number would be that of the lab before the run",
     bad: Example::Question(
         r##"{"kind": "mcq", "q": "What happens to the ball?", "options": ["It falls", "It rises"], "answer": 0, "explain": "It has a weight.",

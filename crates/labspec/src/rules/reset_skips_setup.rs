@@ -45,7 +45,7 @@ fn check_lab(lab: &Lab, findings: &mut Vec<Finding>) {
                 Finding::new(
                     RESET_SKIPS_SETUP,
                     run.span(),
-                    "this resets the data, and skips the start of the lab",
+                    "this resets the data but does not restore the initial state of the lab",
                 )
                 .help("write `sim.reset()`"),
             );

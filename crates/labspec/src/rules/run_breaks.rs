@@ -7,7 +7,7 @@ pub const RUN_BREAKS: &Rule = &Rule {
     exceptions: &[],
     layer: Layer::Claim,
     summary: "a run of a `verify` object breaks",
-    why: "it meets a bad number, goes wrong silently (energy from nothing, a body through another one), or an expression throws: its measures prove nothing",
+    why: "it meets a bad number, fails silently (energy from nothing, a body that passes through another one), or an expression throws, so its measures prove nothing",
     bad: Example::Question(
         r##"{"kind": "mcq", "q": "What happens to the ball?", "options": ["It falls", "It rises"], "answer": 0, "explain": "It has a weight.",
  "verify": {"lab": "#1", "runs": {"⟦run⟧": {"setup": "data.qpos[2] = 1e20", "until": 0.3}}, "measure": {"z": "final(data.qpos[2])"}, "options": ["run.z < 1", "run.z > 1"]}}"##,

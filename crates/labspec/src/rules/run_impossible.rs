@@ -6,7 +6,7 @@ pub const RUN_IMPOSSIBLE: &Rule = &Rule {
     severity: Severity::Error,
     exceptions: &[],
     layer: Layer::Claim,
-    summary: "a run cannot be made",
+    summary: "a run cannot be executed",
     why: "it does something that no student can do (a missing control, a value off the steps of a slider, a press after the end), or takes too many steps",
     bad: Example::Question(
         r##"{"kind": "mcq", "q": "What happens to the ball?", "options": ["It falls", "It rises"], "answer": 0, "explain": "It has a weight.",

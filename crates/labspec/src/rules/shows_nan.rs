@@ -43,7 +43,7 @@ pub(crate) fn always_a_gap(display: &WatchedDisplay<'_>) -> Finding {
         .why("a student sees nan, or no curve at all, at every setting")
         .help(match display.mentions_gap {
             true => "write an expression to display: this one is only a gap",
-            false => "store the variable that it reads: nothing ever does",
+            false => "store a value in the variable that it reads: no program does so",
         })
 }
 

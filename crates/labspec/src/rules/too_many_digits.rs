@@ -91,7 +91,7 @@ pub(crate) fn check_surplus_digits(observed: &mut ObservedLab<'_>, findings: &mu
 /// The finding for a readout, of whose decimals the integration supports so many, or none.
 fn surplus(readout: &Readout, supported: Option<u32>) -> Finding {
     let all_but = supported.map_or("all of them".into(), |n| format!("all but {n}"));
-    let message = format!("{} decimals are printed, but the timestep decides {all_but}", readout.digits());
+    let message = format!("{} decimals are printed, but {all_but} depend on the timestep", readout.digits());
     let advice = supported.map_or(String::new(), |n| format!("write \"digits\": {n}, or "));
     Finding::new(TOO_MANY_DIGITS, readout.expr.span(), message)
         .help(format!("{advice}use a shorter timestep; `labspec precision` shows how short"))

@@ -64,11 +64,11 @@ pub(super) fn across(lessons: &[&Lesson]) -> Vec<Finding> {
             ),
         )
         .why(format!(
-            "chance gives {expected:.1} on average, and this many in one of {:.0} courses; all: {}",
+            "by chance there would be {expected:.1} on average, and this many in one of {:.0} courses; correct options by index: {}",
             1.0 / chance,
             counts.join(", ")
         ))
-        .help("move the correct options of some questions")
+        .help("move the correct option to another position in some questions")
         .at(file),
     ]
 }

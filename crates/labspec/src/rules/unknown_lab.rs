@@ -36,7 +36,7 @@ fn check_lesson(lesson: &Lesson, findings: &mut Vec<Finding>) {
             Some(used) if used.span == claim.verify.span => "this `verify` uses itself".to_string(),
             // The referenced object could not be resolved.
             Some(_) if std::ptr::eq(lesson.whole(claim.verify), claim.verify) => {
-                "the lesson uses other `verify` objects too often".to_string()
+                "the `verify` objects that the lesson reuses are larger than 8 MB in total".to_string()
             }
             Some(_) => continue,
         };

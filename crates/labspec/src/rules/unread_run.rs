@@ -10,7 +10,7 @@ pub const UNREAD_RUN: &Rule = &Rule {
     exceptions: &[],
     layer: Layer::Structure,
     summary: "no claim of a `verify` object reads one of its runs",
-    why: "the run is made, and nothing is compared with it: what the text says about it is not checked. Usually a condition has the name of another run",
+    why: "the run is executed, but nothing is compared with it, so what the text says about it is not checked. Usually a condition has the name of another run",
     bad: Example::Quiz(
         r#"{"id": "moon", "questions": [{"q": "On the moon, the ball falls", "options": ["faster", "more slowly"], "answer": 1, "verify": {"lab": {"stopAt": 2, "xml": "<mujoco><worldbody><body pos='0 0 1'><freejoint/><geom size='.05'/></body></worldbody></mujoco>", "controls": [{"label": "gravity (m/s²)", "set": "model.opt.gravity[2]", "min": -20, "max": 0, "step": 0.01, "value": -9.81, "reset": true}]}, "runs": {"⟦earth⟧": {}, "moon": {"set": {"gravity (m/s²)": -1.62}}}, "measure": {"t": "crossing(data.qpos[2])"}, "options": ["moon.t < 0.5", "moon.t > 0.5"]}}]}"#,
     ),

@@ -32,7 +32,7 @@ fn check_lesson(lesson: &Lesson, findings: &mut Vec<Finding>) {
                 Finding::new(
                     VERIFY_ANSWER,
                     label.span(),
-                    "`over` gives a range, but there are no conditions",
+                    "`over` gives a range, but the object has no `options` to test in it",
                 )
                 .help("write `options`, one condition for each option of the question"),
             );
@@ -43,7 +43,7 @@ fn check_lesson(lesson: &Lesson, findings: &mut Vec<Finding>) {
                     Finding::new(
                         VERIFY_ANSWER,
                         text.span(),
-                        "there is no question here that this could answer",
+                        "`options`, `value` and `wrong` need a question, but this `verify` belongs to none",
                     )
                     .help("move it to the question, or write it as [quote, expression] under `says`"),
                 );

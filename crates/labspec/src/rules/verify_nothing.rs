@@ -8,7 +8,7 @@ pub const VERIFY_NOTHING: &Rule = &Rule {
     exceptions: &[],
     layer: Layer::Structure,
     summary: "a `verify` object claims nothing",
-    why: "its runs are made, but the checker compares nothing with them",
+    why: "its runs are executed, but the checker compares nothing with them",
     bad: Example::Lab(
         r#"{"model": "ball", "note": "It rests at 0.10 m.", "verify": ⟦{⟧"runs": {"drop": {"until": 2}}}}"#,
     ),

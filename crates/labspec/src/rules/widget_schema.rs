@@ -8,7 +8,7 @@ pub const WIDGET_SCHEMA: &Rule = &Rule {
     severity: Severity::Error,
     exceptions: &[],
     layer: Layer::Structure,
-    summary: "a block of another widget does not fit the schema that `labspec.toml` declares for it",
+    summary: "a block of a widget does not match the JSON Schema that `labspec.toml` declares for it",
     why: "the page shows another thing than the author means, or nothing",
     bad: Example::Files(&[
         ("example.md", b"# A map\n\n```lab map\n{\"place\": \"Rome\", \"zoom\": \xe2\x9f\xa6\"near\"\xe2\x9f\xa7}\n```\n"),

@@ -195,9 +195,10 @@ fn column_of(text: &str, column: Option<&str>) -> Result<Vec<Json>, String> {
         let cell = cells(line, separator).into_iter().nth(place);
         let number = cell.as_deref().and_then(|cell| cell.parse::<f64>().ok()).filter(|x| x.is_finite());
         number.map(Json::Number).ok_or_else(|| {
-            let found =
-                cell.filter(|cell| !cell.is_empty()).map_or("no value".into(), |cell| format!("`{cell}`"));
-            format!("row {} has {found} in this column, which is not a number", i + 1)
+            let found = cell
+                .filter(|cell| !cell.is_empty())
+                .map_or("no value".into(), |cell| format!("`{cell}`, which is not a number"));
+            format!("row {} of this column has {found}", i + 1)
         })
     };
     // One more than a sweep can have: it is then refused.

@@ -121,7 +121,9 @@ impl Interaction {
         };
         match self.kind {
             InteractionKind::Touched => {
-                format!("{done}, after a touch (every joint begins with a speed of {PUSH_SPEED:e})")
+                format!(
+                    "{done}, after a small perturbation (every joint starts with a speed of {PUSH_SPEED:e})"
+                )
             }
             _ => done,
         }

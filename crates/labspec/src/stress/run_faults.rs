@@ -43,8 +43,11 @@ fn breakdown(session: &Session<'_>) -> Option<Fault> {
     let step = FaultEvidence { name: "timestep", value: m.opt.timestep, unit: "s" };
     let cause = || stiffness_cause(m).unwrap_or_else(|| unknown_cause(m));
     if let Some(g) = growth.filter(|g| first.is_none_or(|(_, stat)| g.time < stat.first_time)) {
-        let diverged =
-            first.map(|(_, stat)| FaultEvidence { name: "no number at", value: stat.first_time, unit: "s" });
+        let diverged = first.map(|(_, stat)| FaultEvidence {
+            name: "first NaN or huge value at",
+            value: stat.first_time,
+            unit: "s",
+        });
         let mut evidence = vec![
             FaultEvidence { name: "energy gained", value: g.gain, unit: "J" },
             FaultEvidence { name: "energy at the start", value: g.available_energy, unit: "J" },
@@ -126,14 +129,14 @@ pub(super) fn earliest_observed_fault(m: &Model, noticed: &Observations) -> Opti
             None => "a motor or load is stronger than its limit",
         };
         let mut evidence = vec![number("beyond", p.beyond, unit), number("range", p.range, unit)];
-        evidence.extend(p.step.map(|step| number("way in one step", step, unit)));
+        evidence.extend(p.step.map(|step| number("distance in one step", step, unit)));
         let subject = joint_of_dof(m, m.jnt_dofadr.get(p.joint).map_or(0, |&dof| dof as usize));
         fault(FaultKind::PastLimit, p.time, subject, cause, p.beyond / p.range, evidence)
     });
     let through = noticed.through.map(|t| {
         let [mover, wall] = both(t.geoms);
         let evidence = vec![
-            number("way in one step", t.moved, "m"),
+            number("distance in one step", t.moved, "m"),
             number("thickness of what it passes", t.thickness, "m"),
         ];
         let cause = "no step finds the two in contact from the right side";

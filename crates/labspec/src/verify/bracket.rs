@@ -42,14 +42,14 @@ pub(super) fn report_undecided_bracket(
             continue;
         }
         let [low, high] = [bracket[0].min(bracket[1]), bracket[0].max(bracket[1])].map(significant);
-        let message =
-            format!("`{}` lies between {low} and {high}, which does not decide this", find.name.value);
+        let message = format!(
+            "`{}` is between {low} and {high}; this interval is too wide to decide the claim",
+            find.name.value
+        );
         let tol = significant(find.tol.value);
         findings.push(
             Finding::error(claim.rule, claim.place.clone(), message.clone())
-                .why(format!(
-                    "the search knows the limit to its `tol` of {tol}, and the claim needs it more precisely"
-                ))
+                .why(format!("the search finds the limit only to within its `tol` of {tol}"))
                 .help(describe_finer(find, bracket, &agrees))
                 .related(find.tol.span.clone(), "the precision of the search"),
         );

@@ -38,7 +38,7 @@ pub fn check_verify(
             }
             judgement
         }
-        None => not_executable(verify, question, "a run cannot be made"),
+        None => not_executable(verify, question, "a run cannot be executed"),
     }
 }
 

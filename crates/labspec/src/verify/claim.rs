@@ -198,8 +198,8 @@ pub(super) fn reads_outside_run(text: &Text) -> Finding {
     Finding::error(
         rules::READ_OUTSIDE_RUN,
         text.span(),
-        format!("`{written}` reads the simulation at no time of the run"),
+        format!("`{written}` reads the simulation without choosing a time of the run"),
     )
-    .why("a run has many samples, and this does not say which one it means: the number would be that of the lab before the run")
+    .why("a run has many samples, and this expression does not say which one it means; it would read the lab before the run")
     .help("choose a sample: `final(…)` at the end, `initial(…)` at the start, `max(…)`, `mean(…)`, or `at(condition, …)`")
 }

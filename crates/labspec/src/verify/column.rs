@@ -91,7 +91,7 @@ fn computing_heading(bound: &BoundVerify<'_>, claim: &Column) -> Option<Finding>
         let message = format!("the heading says \"{operation}\", but the expression is `{}`", expr.value.trim());
         Some(
             Finding::error(rules::QUOTE_UNCLEAR, heading.span(), message)
-                .why("the cells may be another quantity than the one that the expression gives")
+                .why("the cells may state a different quantity than the expression gives")
                 .help("name the quantity alone in the heading, as in `time (s)`, or compute with it in the expression, too")
                 .related(expr.span(), "the expression for the cells"),
         )
@@ -163,7 +163,7 @@ impl SweepRows<'_> {
                 let other = unit.filter(|_| factor.is_none()).map_or(String::new(), |unit| {
                     format!(": the column is in {}, but the values are in another unit", unit.text)
                 });
-                let message = format!("no run covers the row \"{}\"{other}", key.value);
+                let message = format!("no run of the sweep matches the row \"{}\"{other}", key.value);
                 let help = "add this value to the sweep, or correct the row";
                 Err(self.refuse_row(key, message, help))
             }
@@ -186,7 +186,7 @@ impl SweepRows<'_> {
     /// The finding about a row that does not describe one run.
     fn refuse_row(&self, key: &Text, message: String, help: &str) -> Box<Finding> {
         let finding = Finding::new(rules::QUOTE_UNCLEAR, key.span(), message)
-            .why("the number in this row was compared with nothing")
+            .why("the number in this row was not compared")
             .help(help)
             .related(self.list.span(), "the values of the sweep");
         Box::new(finding)
@@ -269,7 +269,7 @@ fn condition_of_word<'w>(text: &Text, words: &'w [(Text, Text)]) -> Result<&'w T
         let claimed: Vec<&str> = words.iter().map(|(word, _)| word.as_str()).collect();
         return Err(Box::new(
             Finding::new(rules::QUOTE_UNCLEAR, text.span(), message)
-                .why("this cell was compared with nothing")
+                .why("this cell was not compared")
                 .help(format!("write one of {}, or add a condition for this word", claimed.join(", "))),
         ));
     };
@@ -286,7 +286,7 @@ fn condition_of_word<'w>(text: &Text, words: &'w [(Text, Text)]) -> Result<&'w T
         let message = format!("\"{}\" contains a number that no condition checks", text.value);
         return Err(Box::new(
             Finding::error(rules::QUOTE_UNCLEAR, text.span(), message)
-                .why("the cell would count as right whatever its number")
+                .why("the cell would count as right with any number in it")
                 .help("quote it under `says`: an expression for its number, and a condition for its words"),
         ));
     }

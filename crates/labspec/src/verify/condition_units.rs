@@ -27,7 +27,7 @@ pub(super) fn check_condition_units(
         let Some(Mismatch { message, help }) = mismatch(bound, outcome, text, condition) else { continue };
         findings.push(
             Finding::error(rules::QUOTE_WRONG, condition.span(), message.clone())
-                .why("the condition has the digits of the text, but not its unit, so that it tests another number")
+                .why("the condition has the digits of the text but not its unit, so it tests a different number")
                 .help(help)
                 .related(text.span(), "the text"),
         );

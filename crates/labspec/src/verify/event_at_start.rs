@@ -53,7 +53,7 @@ pub(super) fn check_events(
                 text.span(),
                 format!("`{event}` happens at the first sample of {runs}"),
             )
-            .why("the measure is a value of the start, not of something that happens")
+            .why("the measure describes the start, not an event during the run")
             .help("wait for what comes later (`first(… && data.time > 0.1)`), or take the value of the start with `initial(…)`"),
         );
     }

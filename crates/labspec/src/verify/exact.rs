@@ -167,7 +167,7 @@ fn hold(
             )
             .why(match &claim.tol {
                 None => "the difference between the trace and the formula neither vanishes nor settles as the timestep shrinks",
-                Some(_) => "a claim that nothing could refute says nothing about the simulation",
+                Some(_) => "with this tolerance, nearly any curve would count as following the formula",
             })
             .help("state the allowed difference: {\"is\": \"…\", \"tol\": 0.001}"),
         );
@@ -284,7 +284,7 @@ struct LargestDeviation {
 impl LargestDeviation {
     fn finding(&self, claim: &Exact) -> Finding {
         let message = format!(
-            "\"{}\" does not follow this: at t = {} s it is {}, but the formula gives {}",
+            "the trace \"{}\" does not follow its closed form: at t = {} s it is {}, but the formula gives {}",
             claim.trace.value,
             significant(self.time),
             significant(self.trace),
@@ -311,7 +311,7 @@ fn within(tol: f64, run: &Differences) -> Comparison {
     };
     if worst <= tol && tol > wide * scale && !noise {
         let how = format!(
-            "a tolerance of {} is too wide to tell it from another curve: {what} {}",
+            "a tolerance of {} is too wide to distinguish the formula from other curves: {what} {}",
             significant(tol),
             significant(scale)
         );
@@ -333,7 +333,7 @@ fn converges(order: i32, h: &Differences, half: &Differences, quarter: &Differen
     let errors = [h, half, quarter].map(|run| largest(n, |i| run.difference(i)).1);
     let rounding = ROUNDING * quarter.size().max(h.size());
     let list = errors.map(significant).join(", ");
-    let shrinks = format!("{list} apart at the lab's timestep, half and a quarter of it");
+    let shrinks = format!("they differ by {list} at the timestep of the lab, at half and at a quarter of it");
     if errors.iter().all(|e| *e <= rounding) {
         return (State::True(Evidence::Simulated), "equal except for rounding".into(), None);
     }
@@ -356,7 +356,7 @@ fn converges(order: i32, h: &Differences, half: &Differences, quarter: &Differen
     }
     if left > 3.0 * unsure + rounding {
         let how = format!(
-            "the difference does not vanish as the timestep shrinks, {} remains: the two are {shrinks}",
+            "the difference does not vanish as the timestep shrinks, {} remains: {shrinks}",
             significant(left)
         );
         let difference = extrapolated(half, quarter, i);

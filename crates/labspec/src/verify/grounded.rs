@@ -70,7 +70,7 @@ pub(super) fn report_constant_claim(text: &Text, findings: &mut Vec<Finding>) ->
     findings.push(
         Finding::error(rules::CONSTANT_CLAIM, text.span(), message.clone())
             .why("other values in place of the measured ones did not change it")
-            .help("compare a measure of a run with something that it could miss"),
+            .help("compare a measure of a run with a value that it could fail to match"),
     );
     message
 }

@@ -23,6 +23,6 @@ pub(super) fn check_dimensions(bound: &BoundVerify<'_>, verify: &Verify, finding
 /// The finding with the reason and the help for a claim.
 fn of_claim(finding: Finding) -> Finding {
     finding
-        .why("neither of the two can be larger than the other one, so that the claim says nothing about what is measured")
-        .help("check the names of the measures: one of the two may be another one than intended")
+        .why("quantities of different dimensions cannot be compared, so the claim says nothing about what is measured")
+        .help("check the names of the measures: one of them is probably not the intended one")
 }

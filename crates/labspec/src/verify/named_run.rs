@@ -35,7 +35,7 @@ pub(super) fn check_exchanged_runs(quotes: &[Misnamed<'_>], findings: &mut Vec<F
         );
         findings.push(
             Finding::new(rules::QUOTE_OF_ANOTHER_RUN, one.place.clone(), message)
-                .help(format!("exchange the two numbers of the text, or write the sentence about {read}"))
+                .help(format!("swap the two numbers in the text, or make the sentence about {read}"))
                 .related(one.expr.span(), "the expression"),
         );
     }

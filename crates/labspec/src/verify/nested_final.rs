@@ -16,7 +16,7 @@ pub(super) fn nested_finals(program: &Program, text: &Text) -> Vec<Finding> {
             rules::NESTED_FINAL,
             text.span_of(found.span.into()),
             format!(
-                "`{part}` inside of another aggregate is the value of the current sample, not that of the end"
+                "`{part}` inside another aggregate is the value of the current sample, not of the last one"
             ),
         )
         .help(

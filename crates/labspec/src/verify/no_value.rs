@@ -91,7 +91,9 @@ pub(super) fn report_missing(
             "let the run end later than at {} s, where its `stop` holds, or correct the measure, {without}",
             significant(end)
         ),
-        None if is_event => format!("correct the measure, {without}; no longer run could be tried"),
+        None if is_event => {
+            format!("correct the measure, {without}; no run of a greater length could be tested")
+        }
         None => format!("correct the measure, {without}"),
     });
     if of_run.is_some() {

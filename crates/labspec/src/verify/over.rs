@@ -76,7 +76,7 @@ pub(super) fn hold_over_range(
         seen: BTreeSet::new(),
     };
     match space.search(findings) {
-        None => *answer = Answer::failed("a run in the range of `over` cannot be made"),
+        None => *answer = Answer::failed("a run in the range of `over` cannot be executed"),
         Some(Some((setting, how))) => {
             let message = format!("the answer is false with {setting}: {how}");
             findings.push(
@@ -172,7 +172,7 @@ fn axis<'v>(lab: &Lab, label: &'v Text, ends: [f64; 2]) -> Result<SweptSlider<'v
     let can = |x: &f64| control.is_some_and(|c| settings::value(c, &Value::Number(*x)).is_ok());
     if !reached || !values.iter().all(can) {
         return Err(wrong(format!(
-            "the slider \"{}\" goes from {} to {} in steps of {}, and has no two values from {} to {}",
+            "the slider \"{}\" goes from {} to {} in steps of {}: fewer than two of its values are from {} to {}",
             label.value,
             significant(min.value),
             significant(max.value),

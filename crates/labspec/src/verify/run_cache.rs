@@ -271,7 +271,7 @@ fn inside(span: &Range<usize>, outer: &Range<usize>) -> bool {
 }
 
 fn cannot(place: Range<usize>, message: String) -> Finding {
-    Finding::error(rules::RUN_IMPOSSIBLE, place, format!("the run cannot be made: {message}"))
+    Finding::error(rules::RUN_IMPOSSIBLE, place, format!("the run cannot be executed: {message}"))
 }
 
 /// The index of a keyframe.

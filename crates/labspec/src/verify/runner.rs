@@ -138,7 +138,7 @@ pub(super) fn prepare_run<'r>(
     let start = Start { key: lab.keyframe(), plan, budget: Budget { left: stage.left() } };
     let mut session = Session::start(bound.scene.programs.clone(), &bound.scene.model, start);
     let mut refuse_at = |place: Range<usize>, e: RunError| {
-        let message = format!("the run {} cannot be made: {}", named(run.name), e.message);
+        let message = format!("the run {} cannot be executed: {}", named(run.name), e.message);
         let finding = Finding::error(rules::RUN_IMPOSSIBLE, place, message);
         findings.push(match e.help {
             Some(help) => finding.help(help),

@@ -89,7 +89,7 @@ pub(super) fn search(
     let mut none = |message: String, help: &str| {
         findings.push(
             Finding::error(rules::CLAIM_WITHOUT_NUMBER, find.holds.span(), message)
-                .why(format!("the search has no result, so what reads it cannot be checked: {looked}"))
+                .why(format!("the search has no result, so no claim that reads it can be checked: {looked}"))
                 .help(help),
         );
     };
@@ -192,7 +192,7 @@ fn as_one(changes: Vec<[f64; 2]>, tol: f64) -> Vec<[f64; 2]> {
 fn several(changes: &[[f64; 2]]) -> NoLimit {
     let place = |[a, b]: &[f64; 2]| format!("{} and {}", significant(*a), significant(*b));
     let places: Vec<String> = changes.iter().map(place).collect();
-    let message = format!("this changes more than once: between {}", places.join(", between "));
+    let message = format!("the condition changes more than once: between {}", places.join(", between "));
     (message, "search where the condition changes only once")
 }
 
@@ -235,21 +235,23 @@ fn no_limit(find: &Find, ends: [bool; 2]) -> Option<NoLimit> {
     let [from, to] = find.range.map(significant);
     match (ends, find.largest) {
         ([true, true], _) => {
-            let message = format!("this holds at both ends of the range from {from} to {to}");
+            let message = format!("the condition holds at both ends of the range from {from} to {to}");
             Some((message, "widen the range, or ask for something that has a limit"))
         }
         ([false, false], _) => {
-            let message = format!("this holds at neither end of the range from {from} to {to}");
+            let message = format!("the condition holds at neither end of the range from {from} to {to}");
             Some((message, "start or end the range where it holds"))
         }
         ([false, true], true) => {
-            let message =
-                format!("this holds at {to} but not at {from}: it has a smallest value, but no largest");
+            let message = format!(
+                "the condition holds at {to} but not at {from}: there is a smallest value, but no largest one"
+            );
             Some((message, "write \"smallest\""))
         }
         ([true, false], false) => {
-            let message =
-                format!("this holds at {from} but not at {to}: it has a largest value, but no smallest");
+            let message = format!(
+                "the condition holds at {from} but not at {to}: there is a largest value, but no smallest one"
+            );
             Some((message, "write \"largest\""))
         }
         _ => None,

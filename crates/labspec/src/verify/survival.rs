@@ -61,7 +61,7 @@ pub(super) fn verdict_by(evidence: Option<Evidence>) -> Verdict {
 pub(super) fn out_of_work(span: Range<usize>, how: &str) -> Finding {
     let what = format!("the work budget ran out before testing whether the answer holds {how}");
     Finding::error(rules::RUN_BREAKS, span, what)
-        .why("an answer that holds only under one choice of numerics is not an answer")
+        .why("without this test, the answer may hold only for the timestep and the solver of the lesson")
         .help("make the runs shorter, or use fewer of them in one lesson")
 }
 

@@ -41,12 +41,12 @@ pub(super) fn refuse_run_length(
         return Ok(());
     };
     let message = format!(
-        "the run {} ends after {} s, and its `stop` has not held: this number is its length",
+        "the run {} ends after {} s without reaching its `stop`, so this number is only the length of the run",
         named(run.name),
         significant(until)
     );
     let finding = Finding::new(rules::STOP_NEVER_HOLDS, text.span(), message.clone())
-        .help("let the run be longer, with a larger `until`, or correct its `stop`; that the event does not happen is a condition: `t > 4.9`");
+        .help("raise `until`, or correct `stop`; to claim that the event does not happen, write a condition such as `t > 4.9`");
     findings.push(match run.spec.and_then(|spec| spec.stop.as_ref()) {
         Some(stop) => finding.related(stop.span(), "this never holds"),
         None => finding,

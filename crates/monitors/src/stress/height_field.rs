@@ -89,7 +89,7 @@ fn fall_fault(m: &Model, d: &Fields, [g, p]: [usize; 2], travel: f64, depth: f64
         cause: cause.into(),
         evidence: vec![
             FaultEvidence { name: "depth below the surface", value: depth, unit: "m" },
-            FaultEvidence { name: "way since it was above it", value: travel, unit: "m" },
+            FaultEvidence { name: "distance since it was above the surface", value: travel, unit: "m" },
             FaultEvidence { name: "own thickness", value: thick, unit: "m" },
         ],
         size: depth / thick,

@@ -307,7 +307,7 @@ fn tunnelling(m: &Model, d: &Fields, [g, p]: [usize; 2], from: Vec3, to: Vec3) -
         subject: format!("{} through {}", geom_name(m, g), geom_name(m, p)),
         cause,
         evidence: vec![
-            FaultEvidence { name: "way in one step", value: travel, unit: "m" },
+            FaultEvidence { name: "distance in one step", value: travel, unit: "m" },
             FaultEvidence { name: "thickness of what it passes", value: thick, unit: "m" },
             FaultEvidence { name: "own thickness", value: own_thickness, unit: "m" },
         ],

@@ -85,7 +85,7 @@ fn closer_for_same_work(rows: &[PrecisionRow], usable: &[usize], own_row: usize)
     let how = if reliable(rows, i) == 0.0 || times > 1e12 {
         "exact except for rounding".to_string()
     } else {
-        format!("{} times closer", two_digits(times))
+        format!("{} times more accurate", two_digits(times))
     };
     let text = format!("{} is {how} and takes {}.", name(&rows[i]), relative_work(&rows[i], &rows[own_row]));
     Some(Advice { kind: AdviceKind::Closer, row: i, text })
@@ -122,13 +122,13 @@ fn closest(report: &PrecisionResults, usable: &[usize]) -> Option<Advice> {
     });
     let text = match doubtful {
         Some((target, _)) if !usable.iter().all(|&i| wrong(&rows[i])) => format!(
-            "It is unknown whether a tested setting shows {every} correctly: the reference of \"{}\" may be off by {}, and {} would be visible; the closest is {}.",
+            "It is unknown whether a tested setting shows {every} correctly: the reference of \"{}\" may be off by {}, and {} would be visible; the most accurate is {}.",
             target.label,
             with_unit(target.uncertainty, target),
             with_unit(target.invisible_error, target),
             name(&rows[i])
         ),
-        _ => format!("No tested setting shows {every} correctly; the closest is {}.", name(&rows[i])),
+        _ => format!("No tested setting shows {every} correctly; the most accurate is {}.", name(&rows[i])),
     };
     Some(Advice { kind: AdviceKind::Closest, row: i, text })
 }

@@ -126,7 +126,7 @@ test("proved claims have a mark, are checked again on demand, and changed conten
   await mark.getByRole("button", { name: "Run the claims again" }).click();
   await page.waitForFunction(() => /claims are true/.test(document.querySelector("#a").shadowRoot.querySelector(".proof-result").textContent), null, { timeout: 60_000 });
   assert.equal(await mark.locator(".proof-result").innerText(), "All claims are true here too: 2.");
-  assert.match(await page.locator("#b .proof summary").innerText(), /Changed since it was proved/);
+  assert.match(await page.locator("#b .proof summary").innerText(), /Changed since it was verified/);
   assert.equal(await page.locator("#c .proof").count(), 0);
   errors.none();
 });

@@ -39,7 +39,7 @@ pub fn solve_m<S: Scope>(m: &Model, d: &Data<S>, x: &mut [f64]) -> Result<(), Er
     Ok(())
 }
 
-/// x ← D^-½ L⁻ᵀ x (`mj_solveM2`). The squared norm of the result is xᵀ M⁻¹ x.
+/// x ← D^-½ L⁻ᵀ x (`mj_solveM2`), for a vector of nv numbers. The squared norm of the result is xᵀ M⁻¹ x.
 pub fn solve_m2<S: Scope>(m: &Model, d: &Data<S>, x: &mut [f64]) -> Result<(), Error> {
     d.belongs_to(m)?;
     d.has(&[data::qLD, data::qLDiagInv])?;
@@ -48,7 +48,7 @@ pub fn solve_m2<S: Scope>(m: &Model, d: &Data<S>, x: &mut [f64]) -> Result<(), E
     Ok(())
 }
 
-/// Computes `M` for the poses of bodies at hand, for example after [`mechanical_energy`](super::mechanical_energy).
+/// Computes `M` for the body poses that the data contain, for example after [`mechanical_energy`](super::mechanical_energy).
 ///
 /// # Errors
 ///

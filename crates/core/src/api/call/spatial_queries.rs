@@ -7,7 +7,7 @@ use crate::model::extents;
 use crate::model::reflect::data;
 use crate::query::{self, RayFilter, RayHit};
 
-/// The nearest geom on the ray `from` + x `along`, x ≥ 0 (`mj_ray`). A ray whose direction has zero length hits nothing.
+/// The nearest geom on the ray `from` + x `along`, x ≥ 0, world frame, m (`mj_ray`). A direction of zero length hits nothing.
 pub fn ray<S: Scope>(
     m: &Model,
     d: &Data<S>,

@@ -102,7 +102,7 @@ fn joints(tree: &ElementTree, m: &Model, report: &mut Diagnostics) {
         report
             .note(rules::TOO_FAST, element_span(tree, &["joint"], name), message)
             .why(format!(
-                "on an inertia of {}, the integrator makes it grow from step to step, unless something else limits it",
+                "with an inertia of {}, the integrator makes the motion grow from step to step, unless something else limits it",
                 digits(mass)
             ))
             .help("use a shorter timestep, a softer spring or gain, or more inertia or `armature`");

@@ -7,7 +7,7 @@ pub const NOT_SUPPORTED: &Rule = &Rule {
     exceptions: &[],
     layer: Layer::Model,
     summary: "labspec does not support this MJCF element, attribute or value yet",
-    why: "its effect would be missing from every number: no answer is better than a wrong one",
+    why: "without its effect the numbers would be wrong, so the model is refused",
     bad: Example::Model(
         "<mujoco><worldbody><⟦flexcomp⟧ name='f' type='grid' count='3 3 3' spacing='.1 .1 .1' mass='1'/></worldbody></mujoco>",
     ),

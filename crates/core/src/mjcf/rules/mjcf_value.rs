@@ -7,7 +7,7 @@ pub const VALUE: &Rule = &Rule {
     exceptions: &[],
     layer: Layer::Model,
     summary: "a value is out of range",
-    why: "the model does not load, or computes without physical meaning",
+    why: "the model does not load, or its results have no physical meaning",
     bad: Example::Model("<mujoco><option timestep='⟦0⟧'/></mujoco>"),
     good: Example::Model("<mujoco><option timestep='0.002'/></mujoco>"),
 };

@@ -77,8 +77,7 @@ impl LintPass<'_> {
             span,
             format!("this is almost {result} true: `{text}` changes in small steps"),
         );
-        let report = report
-            .why("the steps are fractions that are rounded, so that the sum misses the number by a little");
+        let report = report.why("each step is a rounded fraction, so the sum misses this number slightly");
         let flag = "a flag that is set once, as `if (!ctx.done && ";
         self.found.push(match self.is_remainder(number) {
             true => report.help("store the next time, as `if (data.time >= ctx.next) { ctx.next += 1; … }`, with `ctx.next = 1` at the start"),

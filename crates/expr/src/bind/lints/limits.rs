@@ -65,7 +65,7 @@ impl LintPass<'_> {
             Finding::warning(
                 rules::CONSTANT_CLAMP,
                 span,
-                format!("this is always {value}: the two limits are exchanged"),
+                format!("this is always {value}: the two limits are swapped"),
             )
             .why("the lower limit is above the upper one")
             .help(format!("write `{meant}`"))

@@ -178,7 +178,7 @@ impl LintPass<'_> {
     pub(super) fn joined(&mut self, joined: &Expr, span: Span) {
         let text = self.text(joined.span).to_owned();
         self.found.push(
-            Finding::warning(rules::JOINED_FIRST, span, format!("`{text}` is one text, and this tests the text"))
+            Finding::warning(rules::JOINED_FIRST, span, format!("`+` joins `{text}` to one text, and this tests that text"))
                 .why("`+` binds more tightly than a comparison and `? :`")
                 .help("put the condition, or the whole choice after `+`, into parentheses, as `'text ' + (a > 0 ? 'x' : 'y')`"),
         );

@@ -72,7 +72,7 @@ impl LintPass<'_> {
                         arg.span,
                         format!("`{text}` is an argument twice"),
                     )
-                    .why("a maximum or minimum of both is the same, and a length counts it twice")
+                    .why("the maximum or minimum of equal numbers is that number, and a length counts it twice")
                     .help("check the index: one of the two probably belongs to another element"),
                 );
                 return;

@@ -48,7 +48,7 @@ pub(super) fn compare(stored: &StoredLab, current: &[&SnapshotRun]) -> SnapshotD
     let called = |run: &SnapshotRun| printable(&run.name).into_owned();
     for old in &stored.runs {
         match current.iter().find(|run| called(run) == old.name) {
-            None => all.changes.push(format!("the run {} is no longer made", old.name)),
+            None => all.changes.push(format!("the run {} no longer exists", old.name)),
             Some(run) => compare_run(old, run, &mut all),
         }
     }

@@ -100,7 +100,7 @@ pub static HASH: Object = Object {
     name: "hash",
     what: "a hash",
     doc: docs(
-        "The answer of a question, hidden from who reads the source of the page: the SHA-256 of the salt, a colon and the answer. The answer is the index of the option, the indexes of a question of kind `multiple` in ascending order with commas between them, or `true` or `false`. Who tries all choices finds it.",
+        "The answer of a question, hidden from readers of the page source: the SHA-256 of the salt, a colon and the answer. The answer is the index of the option, the indexes of a question of kind `multiple` in ascending order with commas between them, or `true` or `false`. A reader who tries all choices finds it.",
     ),
     tag: None,
     minimal: r#"{"salt": "fall", "sha256": "c2b13ffa5d46ef6535899ba40be9e4490faad74ee58ea5aaed7c2eecf7da4cfb"}"#,
@@ -145,7 +145,7 @@ pub static DEBUG: Object = Object {
     name: "debug",
     what: "a question of kind debug",
     doc: docs(
-        "As `mcq`, about a mistake: a listing, a model or a plot in which the student finds the fault.",
+        "Like `mcq`, but about a mistake: the student finds the fault in a listing, a model or a plot.",
     ),
     tag: Some(("kind", "debug")),
     minimal: r#"{"kind": "debug", "q": "The ball rises. What is wrong?", "options": ["gravity is positive", "the mass is too large"], "answer": 0}"#,
@@ -168,7 +168,7 @@ pub static DEBUG: Object = Object {
 pub static PREDICT: Object = Object {
     name: "predict",
     what: "a question of kind predict",
-    doc: docs("As `mcq`; after the student chooses, a lab shows what happens."),
+    doc: docs("Like `mcq`; after the student chooses, a lab shows what happens."),
     tag: Some(("kind", "predict")),
     minimal: r#"{"kind": "predict", "q": "How fast is the ball after 1 s?", "options": ["about 5 m/s", "about 10 m/s"], "answer": 1, "sim": {"model": "fall"}}"#,
     keys: &[
@@ -306,7 +306,7 @@ pub static OPEN: Object = Object {
 pub static CODE: Object = Object {
     name: "code",
     what: "a question of kind code",
-    doc: docs("As `open`, with a program instead of the text."),
+    doc: docs("Like `open`, with a program instead of a text."),
     tag: Some(("kind", "code")),
     minimal: r#"{"kind": "code", "q": "Print the height of the ball after every step."}"#,
     keys: &[

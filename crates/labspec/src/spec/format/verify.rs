@@ -159,7 +159,7 @@ static EXPECTED: [Word; 2] = [
     Word {
         text: "may break",
         doc: docs(
-            "it may break or not, as some runs of a sweep do; claims read its measures over all samples, also those after MuJoCo resets the data",
+            "it may or may not break, like some runs of a sweep; claims read its measures over all samples, also those after MuJoCo resets the data",
         ),
     },
 ];

@@ -3,7 +3,7 @@
 use crate::spec::Verify;
 use serde::Serialize;
 
-/// Claims that no judge is asked about, as they rest on other runs.
+/// The numbers of claims that are not cross-checked, because they depend on runs that are not recorded.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "report", derive(schemars::JsonSchema), schemars(rename = "notJudged"))]
 pub struct Unjudged {

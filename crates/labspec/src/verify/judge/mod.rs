@@ -65,7 +65,7 @@ impl Difference {
     pub fn describe(&self) -> String {
         let [labspec_value, reference_value] = [self.labspec_value, self.reference_value].map(format_value);
         let why = self.no_value.as_ref().map_or(String::new(), |why| format!(": {why}"));
-        format!("`{}` is {labspec_value} here but {reference_value} there{why}", self.name)
+        format!("`{}` is {labspec_value} in labspec but {reference_value} in the recording{why}", self.name)
     }
 }
 
@@ -119,7 +119,7 @@ pub(crate) fn judge(
             Finding::new(
                 rules::ENGINE_DEPENDENT,
                 place,
-                format!("{what} depends on the engine: {before} here, but {after} with {}", reference.engine),
+                format!("{what} depends on the engine: {before} with labspec, but {after} with {}", reference.engine),
             )
             .why(format!("{values}: a student whose page has another version sees something else"))
             .help(
@@ -128,7 +128,8 @@ pub(crate) fn judge(
         );
     };
     let most: Vec<String> = judged.differing.iter().take(3).map(Difference::describe).collect();
-    let values = if most.is_empty() { "a run breaks in one of them".to_string() } else { most.join(", ") };
+    let values =
+        if most.is_empty() { "a run breaks in one of the engines".to_string() } else { most.join(", ") };
     if let (Some(computed), Some(current)) = (&nominal_verdicts.0, &current.0) {
         judged.claims += 1;
         if computed.verdict != current.verdict {
@@ -141,7 +142,7 @@ pub(crate) fn judge(
         judged.claims += 1;
         if quote.state != current.state {
             let numbers = format!(
-                "it is {} here but {} there",
+                "it is {} in labspec but {} in the recording",
                 format_value(quote.computed),
                 format_value(current.computed)
             );
