@@ -35,6 +35,16 @@ pub struct Comparison {
     pub negations: &'static [&'static str],
     /// They negate a noun, or the bound behind them: `no more than`.
     pub negative_articles: &'static [&'static str],
+    /// They name the largest value of a run: `highest`.
+    pub highest: &'static [&'static str],
+    /// They name the smallest value of a run: `lowest`.
+    pub lowest: &'static [&'static str],
+    /// They name the mean of a run.
+    pub average: &'static [&'static str],
+    /// They name the value at the start of a run.
+    pub at_start: &'static [&'static str],
+    /// They name the value at the end of a run.
+    pub at_end: &'static [&'static str],
     /// They state a bound together with the word behind them: `at least as fast`.
     pub limits: &'static [&'static str],
 }
@@ -58,5 +68,10 @@ pub(super) const UNREAD: Comparison = Comparison {
     sizes: &[],
     negations: &[],
     negative_articles: &[],
+    highest: &[],
+    lowest: &[],
+    average: &[],
+    at_start: &[],
+    at_end: &[],
     limits: &[],
 };

@@ -222,8 +222,16 @@ pub(super) static ENGLISH: Language = Language {
             "twentieth",
             "half",
         ],
-        negations: &["not", "never", "cannot"],
+        negations: &[
+            "at no", "in no", "for no", "on no", "under no", "nowhere", "none", "nothing", "nobody",
+            "neither", "nor", "not", "never", "cannot",
+        ],
         negative_articles: &["no"],
+        highest: &["highest", "maximum", "maximal", "largest", "greatest", "peak", "biggest"],
+        lowest: &["lowest", "minimum", "minimal", "smallest", "least"],
+        average: &["average", "on average", "mean"],
+        at_start: &["at the start", "at the beginning", "initially", "in the beginning", "at first"],
+        at_end: &["at the end", "in the end", "finally"],
         limits: &["least", "most", "without"],
     },
     ratios: Ratios {

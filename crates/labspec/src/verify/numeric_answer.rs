@@ -6,6 +6,7 @@ use super::bracket::{BracketClaim, numbers_agree, report_undecided_bracket};
 use super::format::significant;
 use super::found::MeasuredValue;
 use super::grounded::{decided_value, report_constant_claim, report_undecided};
+use super::measures_another::check_words_of_measure;
 use super::outcome::MeasuredRuns;
 use super::outcomes::Outcomes;
 use super::ratio_of_change::{StatedExpr, check_asked_change};
@@ -121,6 +122,7 @@ fn contradicts_question(
     let text_of = |name: &str| bound.text_of_measure(name);
     let value = value_of(bound, outcome, &parse_expression(text.as_str()).tree, text);
     let expr = StatedExpr { text, value, measures: &text_of, languages: bound.stage().languages() };
+    check_words_of_measure(bound, outcome, question.q.as_str(), question.q.span(), text, findings);
     let change = is_percentage.then(|| check_asked_change(&question.q, expr, findings)).flatten();
     change.or_else(|| check_ratio_order(bound, outcome, &question.q, text, findings))
 }

@@ -2,17 +2,15 @@
 
 use super::aggregate::AggregateKind;
 use super::bound::BoundVerify;
-use super::bound_run::CompiledText;
 use super::layout::Slot;
+use super::measures_another::measured_in_run;
 use super::outcome::MeasuredRuns;
-use crate::bind::Scope;
 use crate::finding::Finding;
 use crate::json::read::named;
 use crate::language::Languages;
 use crate::rules;
 use crate::source::Text;
-use labspec_expr::{Compiler, Program};
-use std::borrow::Cow;
+use labspec_expr::Program;
 
 /// Reports an option or a statement whose condition holds at the end of its run, and not at all samples. A comparison of several runs may be
 /// about all settings, not about all times, and a run that ends by its `stop` ends at an event.
@@ -41,9 +39,10 @@ pub(super) fn check_one_sample(
     let fails = |extreme: &str| match is_of_text {
         true => !holds_with(bound, outcome, condition, extreme),
         false => {
-            let values = read
-                .iter()
-                .map(|(place, run, text)| Some((*place, extreme_of(bound, outcome, *run, text, extreme)?)));
+            let values = read.iter().map(|(place, run, text)| {
+                let text = Text::derived(with_extreme(text.as_str(), extreme), text.span());
+                Some((*place, measured_in_run(bound, outcome, *run, text)?))
+            });
             let Some(values) = values.collect::<Option<Vec<_>>>() else { return false };
             let mut inputs = claim.inputs(bound, outcome, Vec::new());
             values.into_iter().for_each(|(place, x)| inputs.set_value(place, x));
@@ -65,24 +64,6 @@ pub(super) fn check_one_sample(
 fn holds_with(bound: &BoundVerify<'_>, outcome: &MeasuredRuns, condition: &Text, extreme: &str) -> bool {
     let text = Text::derived(with_extreme(condition.as_str(), extreme), condition.span());
     bound.find(outcome, &text, &mut Vec::new()).is_none_or(|found| found.value.truthy())
-}
-
-/// The value of a measure in a run, with another aggregate in place of `final`.
-fn extreme_of(
-    bound: &BoundVerify<'_>,
-    outcome: &MeasuredRuns,
-    run: usize,
-    text: &Text,
-    extreme: &str,
-) -> Option<f64> {
-    let run = bound.runs.get(run)?;
-    let scene = bound.scene_of(run)?;
-    let text = Text::derived(with_extreme(text.as_str(), extreme), text.span());
-    let mut globals = scene.globals.clone();
-    let program = Compiler::new(&scene.names(Scope::Measure), &mut globals).expression(&text.value).program?;
-    let measure = CompiledText { text: Cow::Owned(text), program };
-    let made = bound.execute_run(run, outcome.numerics, &[&measure], &mut Vec::new())?;
-    made.values.first().map(|sampled| sampled.value).filter(|x| x.is_finite())
 }
 
 /// A text with another aggregate in place of `final`.

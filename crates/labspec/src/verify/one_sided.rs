@@ -6,7 +6,7 @@ use super::option_numbers::{constant, is_below, magnitude};
 use super::outcome::MeasuredRuns;
 use super::value_of::{states_number, value_of};
 use crate::finding::Finding;
-use crate::language::words::split_words;
+use crate::language::words::find;
 use crate::language::{Comparison, Languages};
 use crate::rules;
 use crate::source::Text;
@@ -126,8 +126,8 @@ fn states_bound(text: &str, languages: Languages) -> bool {
     let lists: [fn(&'static Comparison) -> &'static [&'static str]; 3] =
         [|c| c.negations, |c| c.negative_articles, |c| c.limits];
     let lower = text.to_lowercase();
-    let is_listed = |word: &str| lists.iter().any(|list| languages.comparisons(list).any(|w| w == word));
-    split_words(&lower).any(is_listed) || lower.contains("n't") || lower.contains("n’t")
+    let mut phrases = lists.iter().flat_map(|list| languages.comparisons(list));
+    phrases.any(|phrase| find(&lower, phrase).is_some()) || lower.contains("n't") || lower.contains("n’t")
 }
 
 /// Appends the comparisons of two terms.

@@ -114,7 +114,7 @@ fn contradicted_ratio(
     required: &RequiredRange,
 ) -> Option<String> {
     let [quantity, base] = required.ratio.as_ref()?;
-    let stated = option_ratio(&option.value)?;
+    let stated = option_ratio(&option.value).filter(|stated| stated.side.is_none())?;
     let text = Text::derived(quantity.clone(), condition.span());
     let measured = units::of_claim(bound, outcome, &text);
     let mut may_be = stated.may_be.clone();

@@ -8,6 +8,7 @@ use super::format::shorten;
 use super::found::MeasuredValue;
 use super::grounded::{decided_value, grounded_value};
 use super::loose_tolerance::check_tolerance;
+use super::measures_another::check_words_of_measure;
 use super::one_sample::check_one_sample;
 use super::one_sided::check_one_sided;
 use super::option_numbers::check_option_numbers;
@@ -129,6 +130,8 @@ impl OptionJudgement<'_> {
                 check_tolerance(bound, nominal, &question.q, *both, findings);
                 check_one_sided(bound, nominal, *both, findings);
                 check_one_sample(bound, nominal, *both, findings);
+                let (text, condition) = *both;
+                check_words_of_measure(bound, nominal, text.as_str(), text.span(), condition, findings);
             }
         }
         wrong

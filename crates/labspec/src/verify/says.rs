@@ -1,5 +1,6 @@
 //! Checks quotes: numbers and words of the text, and cells of tables.
 
+use super::measures_another::check_words_of_measure;
 use super::named_run::{check_exchanged_runs, misnamed};
 use super::quote_checker::{Quote, QuoteChecker, QuotedValue, check_number, check_words};
 use super::ratio_of_change::{StatedExpr, check_ratio_of_change};
@@ -58,6 +59,11 @@ fn check_line(
         let expr = StatedExpr { text, value: value.number(), measures: &text_of, languages };
         if let Some(reason) = check_ratio_of_change(&quoted.quote, clause_of(&places), expr, findings) {
             return vec![Quote::unclear(&quoted.quote, &reason)];
+        }
+        if let [place] = places.as_slice() {
+            let words = place.clause.replacen(quoted.quote.as_str(), " ", 1);
+            let nominal = &checker.outcomes.nominal;
+            check_words_of_measure(checker.bound, nominal, &words, place.span.clone(), text, findings);
         }
     }
     let numbers = given.iter().filter(|(_, given)| !given.is_condition()).count();

@@ -4,18 +4,17 @@
 
 use super::bound::BoundVerify;
 use super::format::significant;
+use super::given::given_numbers;
 use super::option_numbers::{constant, is_below, magnitude};
 use super::outcome::MeasuredRuns;
-use super::quote::{OptionNumber, conversion, option_ratio, quantities_in};
+use super::quote::{BoundSide, OptionNumber, conversion, option_ratio, quantities_in};
 use super::units;
 use super::value_of::shares_number;
-use crate::bind::given_by;
 use crate::finding::Finding;
-use crate::json::Scalar;
 use crate::rules;
 use crate::source::Text;
 use crate::spec::Question;
-use labspec_bind::units::{parse, written};
+use labspec_bind::units::written;
 use labspec_expr::ast::{BinaryOp, Expr, ExprKind, LogicalOp, UnaryOp};
 use labspec_expr::dimension::{Dimension, Measure};
 use labspec_expr::{parse_expression, print};
@@ -105,14 +104,16 @@ fn contradiction(
 ) -> Option<String> {
     let (compared, multiples) = compared_terms(bound, outcome, condition)?;
     let found = Measurements { compared, multiples, measures: measures(bound, outcome) };
-    let mut stated = quantities_in(&text.value, bound.stage().languages());
+    let stated = quantities_in(&text.value, bound.stage().languages());
     let given = given_numbers(bound, question, text);
     let is_compared = |q: &&OptionNumber| found.compared.iter().any(|term| term.in_unit_of(q).is_some());
     let about_it: Vec<&OptionNumber> = stated.iter().filter(is_compared).collect();
     let Some(first) = about_it.first() else {
         // "after 1 s" names a setting, not what is compared.
-        stated.retain(|q| !given.iter().any(|number| number.is(q)));
-        return wrong_unit(&stated, &found.compared).or_else(|| wrong_ratio(text, &found));
+        let (settings, stated): (Vec<_>, Vec<_>) =
+            stated.into_iter().partition(|q| given.iter().any(|number| number.is(q)));
+        let words = settings.iter().fold(text.value.to_string(), |words, q| words.replace(&q.text, ""));
+        return wrong_unit(&stated, &found.compared).or_else(|| wrong_ratio(&words, &found));
     };
     // The bound of a difference is a number of the condition: "at most 0.7 s longer" beside `b.t - a.t < 0.7`.
     let is_tested = |q: &OptionNumber| is_difference(condition) && shares_number(&q.text, &condition.value);
@@ -168,9 +169,9 @@ fn wrong_unit(stated: &[OptionNumber], compared: &[Measurement]) -> Option<Strin
 }
 
 /// A ratio in words that is that of no two measured values.
-fn wrong_ratio(text: &Text, found: &Measurements) -> Option<String> {
-    let stated = option_ratio(&text.value)?;
-    let words: Vec<String> = text.value.split_whitespace().map(str::to_lowercase).collect();
+fn wrong_ratio(text: &str, found: &Measurements) -> Option<String> {
+    let stated = option_ratio(text)?;
+    let words: Vec<String> = text.split_whitespace().map(str::to_lowercase).collect();
     let is_bare = stated.named.is_empty() && words.len() <= MAX_BARE_WORDS;
     let is_pronoun = words.first().is_some_and(|word| PRONOUNS.contains(&word.as_str()));
     // "It is six times as large" is about any quantity that is measured twice.
@@ -192,7 +193,13 @@ fn wrong_ratio(text: &Text, found: &Measurements) -> Option<String> {
     // A condition may compare the ratio itself.
     let compared =
         found.compared.iter().filter(|term| term.dimension.is_number()).map(|term| term.value.abs());
-    let close = |x: f64| stated.may_be.iter().any(|y| (x - y).abs() <= RATIO_TOLERANCE * y.abs());
+    let close = |x: f64| {
+        stated.may_be.iter().any(|y| match stated.side {
+            None => (x - y).abs() <= RATIO_TOLERANCE * y.abs(),
+            Some(BoundSide::Above) => x >= y * (1.0 - RATIO_TOLERANCE),
+            Some(BoundSide::Below) => x <= y * (1.0 + RATIO_TOLERANCE),
+        })
+    };
     let nearest = ratios.iter().copied().find(|x| *x >= 1.0)?;
     let none = !ratios.iter().copied().chain(compared).any(close);
     none.then(|| format!("the text says {}, but the measured ratio is {}", stated.text, significant(nearest)))
@@ -285,53 +292,6 @@ fn measures(bound: &BoundVerify<'_>, outcome: &MeasuredRuns) -> Vec<Vec<Measurem
         all.push((name, values.collect()));
     }
     all.into_iter().map(|(_, values)| values).collect()
-}
-
-/// A number that a text may repeat, with its dimension if that is known.
-struct GivenNumber {
-    value: f64,
-    dimension: Option<Dimension>,
-}
-
-impl GivenNumber {
-    /// Whether a text states this number, in any unit.
-    fn is(&self, stated: &OptionNumber) -> bool {
-        let number = stated.number();
-        let factor = match self.dimension.zip(stated.unit.dimension) {
-            Some((of_setting, expected)) if of_setting.agrees(&expected) => {
-                expected.factor / of_setting.factor
-            }
-            Some(_) => return false,
-            None => 1.0,
-        };
-        ((self.value * factor).abs() - number.abs()).abs() <= 1e-6 * number.abs()
-    }
-}
-
-/// The numbers of the question and the settings of its runs.
-fn given_numbers(bound: &BoundVerify<'_>, question: &Question, text: &Text) -> Vec<GivenNumber> {
-    let mut all = Vec::new();
-    if question.q.span() != text.span() {
-        let asked = quantities_in(&question.q.value, bound.stage().languages());
-        let middle = |q: OptionNumber| (0.5 * (q.low + q.high), q.unit.dimension);
-        all.extend(asked.into_iter().map(middle).filter(|(x, _)| x.is_finite()));
-    }
-    let time = parse("s");
-    for (run, scene) in bound.runs_with_scenes() {
-        let Some(spec) = run.spec else { continue };
-        for (label, value) in &spec.set {
-            let Scalar::Number(x) = value else { continue };
-            let dimension =
-                scene.scene.lab.control(label.as_str()).and_then(|control| match given_by(control) {
-                    Measure::Dimension(d) => Some(d),
-                    _ => None,
-                });
-            all.push((x.value, dimension));
-        }
-        let times = spec.until.iter().chain(spec.press.iter().map(|(_, time)| time));
-        all.extend(times.chain(&scene.scene.lab.stop_at).map(|x| (x.value, time)));
-    }
-    all.into_iter().map(|(value, dimension)| GivenNumber { value, dimension }).collect()
 }
 
 #[cfg(test)]

@@ -45,7 +45,7 @@ pub(super) use heading::operation_in_heading;
 pub(super) use markdown_cell::unit_of_head;
 pub use number::{NumberForm, Quoted, Style};
 pub(super) use option_ratio::{named_quantities, option_ratio};
-pub(super) use option_text::{OptionNumber, option_text, quantities_in};
+pub(super) use option_text::{BoundSide, OptionNumber, option_text, quantities_in};
 pub use printed::{OutputBlock, OutputMatch, numbers_in_outputs};
 pub use quote_claim::{OtherValue, QuoteOutcome, QuoteState};
 pub(super) use quote_claim::{QuoteClaim, QuotePlace, QuoteValue};

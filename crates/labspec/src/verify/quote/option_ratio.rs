@@ -1,9 +1,10 @@
 //! The ratio that the text of an option states: `twice as deep`, `a third longer`, `50 %`.
 
+use super::context::BOUND;
 use super::modifier::{WordList, last_word};
 use super::number::NumberForm;
 use super::numeral::Chars;
-use super::option_text::plain_text;
+use super::option_text::{BoundSide, plain_text};
 use super::quantity::quantities;
 use crate::language::words::split_words;
 use crate::language::{Comparison, Languages};
@@ -20,6 +21,8 @@ pub(in crate::verify) struct OptionRatio {
     pub(in crate::verify) may_be: Vec<f64>,
     /// The dimensions of the quantities that the words name; empty where they name none.
     pub(in crate::verify) named: Vec<Dimension>,
+    /// The side on which the ratio lies of a bound: `more than twice as long`.
+    pub(in crate::verify) side: Option<BoundSide>,
 }
 
 impl OptionRatio {
@@ -43,8 +46,18 @@ const ALL: Languages = Languages::ALL;
 type Words = fn(&'static Comparison) -> &'static [&'static str];
 
 /// Numbers, and parts, of mixed factors: `two and a half times`.
-const NUMBER_WORDS: [(&str, f64); 7] =
-    [("one", 1.0), ("two", 2.0), ("three", 3.0), ("four", 4.0), ("five", 5.0), ("six", 6.0), ("seven", 7.0)];
+const NUMBER_WORDS: [(&str, f64); 10] = [
+    ("one", 1.0),
+    ("two", 2.0),
+    ("three", 3.0),
+    ("four", 4.0),
+    ("five", 5.0),
+    ("six", 6.0),
+    ("seven", 7.0),
+    ("eight", 8.0),
+    ("nine", 9.0),
+    ("ten", 10.0),
+];
 const PART_WORDS: [(&str, f64); 4] =
     [("a half", 0.5), ("a third", 1.0 / 3.0), ("a quarter", 0.25), ("three quarters", 0.75)];
 
@@ -96,7 +109,8 @@ pub(in crate::verify) fn option_ratio(option: &str) -> Option<OptionRatio> {
             (place.clone(), folded.get(place.clone())?.to_string(), *x, false)
         }
         ([q], [])
-            if q.refused.is_none() && matches!(q.quoted.form, NumberForm::Plain(_) | NumberForm::Share) =>
+            if q.refused.is_none_or(|why| why == BOUND)
+                && matches!(q.quoted.form, NumberForm::Plain(_) | NumberForm::Share) =>
         {
             let first_words = q.unit.as_ref().is_some_and(|unit| unit.is_own());
             let text = chars.text(q.whole.start, if first_words { q.whole.end } else { q.number_end });
@@ -116,12 +130,21 @@ pub(in crate::verify) fn option_ratio(option: &str) -> Option<OptionRatio> {
         _ => return None,
     };
     let before = folded.get(..place.start)?.trim_end();
-    let is_bound =
-        [WordList::LowerBound, WordList::UpperBound, WordList::SlightlyLess, WordList::SlightlyMore]
-            .into_iter()
-            .any(|list| last_word(before, list, ALL).is_some());
+    let word = |list: WordList| last_word(before, list, ALL);
+    if word(WordList::SlightlyLess).or(word(WordList::SlightlyMore)).is_some() {
+        return None;
+    }
+    // `no more than` ends with `more than`.
+    let upper = [WordList::UpperBound, WordList::Largest].into_iter().filter_map(word);
+    let below = upper.max_by_key(|word| word.len());
+    let side = match (word(WordList::LowerBound), below) {
+        (Some(lower), Some(upper)) if lower.len() > upper.len() => Some(BoundSide::Above),
+        (Some(_), None) => Some(BoundSide::Above),
+        (_, Some(_)) => Some(BoundSide::Below),
+        (None, None) => None,
+    };
     let behind = folded.get(place.end..)?;
-    if is_bound || is_setting(before) || is_denied(before) || is_of_unit(behind) {
+    if is_setting(before) || is_denied(before) || is_of_unit(behind) {
         return None;
     }
     let may_be = readings(x, share, before, behind);
@@ -138,7 +161,7 @@ pub(in crate::verify) fn option_ratio(option: &str) -> Option<OptionRatio> {
     let is_told = near.starts_with("as ");
     let near = named_quantities(&near);
     let named = if near.is_empty() && !is_told { named_quantities(&folded) } else { near };
-    Some(OptionRatio { text, may_be, named })
+    Some(OptionRatio { text, may_be, named, side })
 }
 
 /// Whether a number behind this text is a factor: `larger by a factor of`.
@@ -171,8 +194,13 @@ fn factor_words(lower: &str) -> Vec<(Range<usize>, f64)> {
                 .map(|words| (words, x + y))
         })
     });
-    let mixed: Vec<(Range<usize>, f64)> =
-        mixed.filter_map(|(words, x)| Some((place_of(&words)?, x))).collect();
+    // `by a factor of four`
+    let named = NUMBER_WORDS.iter().filter_map(|(number, x)| {
+        let place = place_of(&format!("factor of {number}"))?;
+        Some((place.end - number.len()..place.end, *x))
+    });
+    let mixed = mixed.filter_map(|(words, x)| Some((place_of(&words)?, x)));
+    let mixed: Vec<(Range<usize>, f64)> = mixed.chain(named).collect();
     let is_in_mixed =
         |place: &Range<usize>| mixed.iter().any(|(m, _)| m.start < place.end && place.start < m.end);
     let single = ALL.ratios(|r| r.factors).filter_map(|(word, x)| Some((place_of(word)?, x)));
@@ -237,6 +265,11 @@ mod tests {
             ("it quadruples", 4.0),
             ("larger by a factor of 6", 6.0),
             ("smaller by a factor of 2", 0.5),
+            ("it falls by a factor of four", 0.25),
+            ("sie verdoppelt sich", 2.0),
+            ("sie wird viermal so lang", 4.0),
+            ("sinkt auf ein Viertel", 0.25),
+            ("quatre fois plus longue", 4.0),
         ] {
             assert!(is(text, x), "{text} {x}");
         }
@@ -261,13 +294,22 @@ mod tests {
             "half or double",
             "halfway",
             "two and a half days",
-            "less than half as long",
             "nearly twice as long",
             "three balls",
             "it falls",
         ] {
             assert_eq!(option_ratio(text), None, "{text}");
         }
+    }
+
+    #[test]
+    fn a_ratio_may_be_a_bound() {
+        let side = |text: &str| option_ratio(text).map(|ratio| ratio.side);
+        assert_eq!(side("more than twice as long"), Some(Some(BoundSide::Above)));
+        assert_eq!(side("at least 50 % longer"), Some(Some(BoundSide::Above)));
+        assert_eq!(side("less than half as long"), Some(Some(BoundSide::Below)));
+        assert_eq!(side("no more than twice as long"), Some(Some(BoundSide::Below)));
+        assert_eq!(side("twice as long"), Some(None));
     }
 
     #[test]

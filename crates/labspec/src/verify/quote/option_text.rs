@@ -8,7 +8,7 @@ use super::quantity::{Quantity, quantities};
 use super::unit_text::Unit;
 use super::{fold, html};
 use crate::language::Languages;
-use crate::language::words::ends_with;
+use crate::language::words::{ends_with, find};
 use labspec_bind::units;
 
 /// The quantity that an option states.
@@ -137,8 +137,8 @@ fn stated_range(q: &Quantity, before: &str, languages: Languages) -> Option<(f64
 }
 
 /// The side of a number on which a bound lies.
-#[derive(Clone, Copy, PartialEq)]
-enum BoundSide {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::verify) enum BoundSide {
     Above,
     Below,
 }
@@ -164,11 +164,10 @@ fn side_of_bound(before: &str, is_share: bool, languages: Languages) -> Option<B
         return None;
     }
     let clause = rest.rsplit([',', ';', ':', '.']).next().unwrap_or(rest);
-    let mut of_clause = clause.split(|c: char| !c.is_alphanumeric());
     // `no more than`; and `it never swings beyond`.
     let negated = languages.comparisons(|c| c.negative_articles).any(|word| ends_with(rest, word))
         || clause.contains("n't")
-        || of_clause.any(|word| languages.comparisons(|c| c.negations).any(|negation| negation == word));
+        || languages.comparisons(|c| c.negations).any(|negation| find(clause, negation).is_some());
     Some(match (side, negated) {
         (BoundSide::Above, false) | (BoundSide::Below, true) => BoundSide::Above,
         _ => BoundSide::Below,

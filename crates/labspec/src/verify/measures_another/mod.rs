@@ -1,0 +1,177 @@
+//! Finds texts whose words name another object, setting, time or extreme than the expression beside them reads: "the cork ball presses with
+//! 29.4 N" beside `normalForce('iron')`. The other value is computed in the same run, or is that of the other run; where it is the same,
+//! nothing is reported.
+
+mod extreme;
+mod moment;
+mod object;
+mod setting;
+
+use super::bound::BoundVerify;
+use super::bound_run::CompiledText;
+use super::compiled_claim::CompiledClaim;
+use super::format::significant;
+use super::layout::Slot;
+use super::outcome::MeasuredRuns;
+use crate::bind::Scope;
+use crate::finding::Finding;
+use crate::json::read::named;
+use crate::language::Languages;
+use crate::rules;
+use crate::source::Text;
+use labspec_expr::{Compiler, Value};
+use std::borrow::Cow;
+use std::ops::Range;
+use std::rc::Rc;
+
+/// Relative difference from which a value is another one: less may not be visible in the digits of the text.
+const DIFFERENT: f64 = 0.02;
+
+/// Reports words of a text that name something else than the expression beside it reads. `words` is the text without the number that the
+/// expression gives, and `place` is where it stands.
+pub(super) fn check_words_of_measure(
+    bound: &BoundVerify<'_>,
+    outcome: &MeasuredRuns,
+    words: &str,
+    place: Range<usize>,
+    expr: &Text,
+    findings: &mut Vec<Finding>,
+) {
+    let Some(read) = ReadMeasure::of(bound, outcome, expr) else { return };
+    let lower = words.to_lowercase();
+    let all: [fn(&ReadMeasure<'_, '_>, &str) -> Option<Other>; 4] =
+        [object::other, setting::other, moment::other, extreme::other];
+    let Some(other) = all.iter().find_map(|other| other(&read, &lower)) else { return };
+    let message =
+        format!("the text says {}, but `{}` reads {}", named(&other.said), expr.as_str(), other.read);
+    let value = match &other.value {
+        Value::Number(x) => format!("there it is {}", significant(*x)),
+        _ => "there it does not hold".to_string(),
+    };
+    findings.push(
+        Finding::new(rules::MEASURES_ANOTHER, place, message)
+            .why(format!("{} gives another value: {value}", other.with))
+            .help("correct the text, or read what it is about")
+            .related(read.text.span(), "what is read"),
+    );
+}
+
+/// What the words of a text name in place of what a claim reads.
+struct Other {
+    /// The words.
+    said: String,
+    /// What the claim reads.
+    read: String,
+    /// How the other value was computed: "`force('cork')` in the same run".
+    with: String,
+    /// The value of the claim with it.
+    value: Value,
+}
+
+/// A claim that reads one measure of one run.
+struct ReadMeasure<'b, 'a> {
+    bound: &'b BoundVerify<'a>,
+    outcome: &'b MeasuredRuns,
+    expr: &'b Text,
+    claim: Rc<CompiledClaim>,
+    /// The position of the number.
+    place: usize,
+    /// The index of the run, and of the measure.
+    run: usize,
+    measure: usize,
+    /// The text of the measure.
+    text: Text,
+    value: Value,
+    languages: Languages,
+}
+
+impl<'b, 'a> ReadMeasure<'b, 'a> {
+    /// `None` if a claim reads several numbers, or none.
+    fn of(
+        bound: &'b BoundVerify<'a>,
+        outcome: &'b MeasuredRuns,
+        expr: &'b Text,
+    ) -> Option<ReadMeasure<'b, 'a>> {
+        let claim = bound.claim(expr)?;
+        let [place] = claim.reads[..] else { return None };
+        let Some(Slot::Measure(run, measure)) = bound.layout().slots.get(place).copied() else { return None };
+        if !claim.program.as_ref()?.aggregates().is_empty() || bound.runs.get(run)?.swept.is_some() {
+            return None;
+        }
+        let text = bound.measure_at(run, measure)?.text.clone().into_owned();
+        let value = bound.find(outcome, expr, &mut Vec::new())?.value;
+        let languages = bound.stage().languages();
+        Some(ReadMeasure { bound, outcome, expr, claim, place, run, measure, text, value, languages })
+    }
+
+    /// The value of the claim with another text of the measure in the same run, if it is another one.
+    fn with_text(&self, text: String) -> Option<Value> {
+        let text = Text::derived(text, self.text.span());
+        self.with_number(measured_in_run(self.bound, self.outcome, self.run, text)?)
+    }
+
+    /// The value of the claim with another number in place of the measured one, if it is another one.
+    fn with_number(&self, x: f64) -> Option<Value> {
+        let mut inputs = self.claim.inputs(self.bound, self.outcome, Vec::new());
+        inputs.set_value(self.place, x);
+        let value = self.claim.evaluate(self.bound, &inputs, None)?.ok()?.value;
+        let differs = match (&value, &self.value) {
+            (Value::Number(a), Value::Number(b)) => {
+                a.is_finite() && (a - b).abs() > DIFFERENT * a.abs().max(b.abs())
+            }
+            (other, current) => !other.truthy() && current.truthy(),
+        };
+        differs.then_some(value)
+    }
+}
+
+/// The value of a measure in a run that was made before, with this text. `None` if it is not finite.
+pub(super) fn measured_in_run(
+    bound: &BoundVerify<'_>,
+    outcome: &MeasuredRuns,
+    run: usize,
+    text: Text,
+) -> Option<f64> {
+    let run = bound.runs.get(run)?;
+    let scene = bound.scene_of(run)?;
+    let mut globals = scene.globals.clone();
+    let program = Compiler::new(&scene.names(Scope::Measure), &mut globals).expression(&text.value).program?;
+    let measure = CompiledText { text: Cow::Owned(text), program };
+    let made = bound.execute_run(run, outcome.numerics, &[&measure], &mut Vec::new())?;
+    made.values.first().map(|sampled| sampled.value).filter(|x| x.is_finite())
+}
+
+#[cfg(test)]
+mod tests {
+    /// What is found about a numeric question over two balls that fall from 1 m and 2 m for 0.3 s.
+    pub(super) fn found(question: &str, measure: &str, answer: f64) -> Vec<String> {
+        let xml = "<mujoco><worldbody><body name='iron' pos='0 0 1'><freejoint/><geom size='.05'/></body>\
+            <body name='cork' pos='0 0 2'><freejoint/><geom size='.05'/></body><body name='scale'><geom size='.1'/></body></worldbody></mujoco>";
+        let verify = serde_json::json!({"lab": {"stopAt": 0.3, "xml": xml}, "runs": {"r": {"until": 0.3}}, "measure": {"h": measure}, "value": "r.h"});
+        let question = serde_json::json!({"kind": "numeric", "q": question, "answer": answer, "tol": 0.05, "unit": "m", "verify": verify});
+        let quiz = serde_json::json!({"id": "q", "questions": [question]}).to_string();
+        let report = crate::Checker::new(|_: &str| None::<String>).check("q.json", &quiz);
+        let all = report.findings.iter().filter(|finding| finding.code == "measures-another");
+        all.map(|finding| finding.message.clone()).collect()
+    }
+
+    #[test]
+    fn the_setting_of_another_run_is_found() {
+        let xml = "<mujoco><worldbody><body><joint name='j' axis='0 1 0'/><geom size='.05' pos='0 0 -.5'/></body></worldbody></mujoco>";
+        let found = |question: &str, value: &str, answer: f64| {
+            let control = serde_json::json!({"label": "start (rad)", "param": "q", "min": 0, "max": 2, "step": 0.1, "value": 0.1, "reset": true});
+            let lab = serde_json::json!({"stopAt": 6, "xml": xml, "controls": [control], "setup": "data.qpos[0] = ctx.q"});
+            let verify = serde_json::json!({"lab": lab, "runs": {"a": {"set": {"start (rad)": 0.1}}, "b": {"set": {"start (rad)": 1.5}}},
+                "measure": {"T": "period(data.qpos[0])"}, "value": value});
+            let question = serde_json::json!({"kind": "numeric", "q": question, "answer": answer, "tol": 0.02, "unit": "s", "verify": verify});
+            let quiz = serde_json::json!({"id": "q", "questions": [question]}).to_string();
+            let report = crate::Checker::new(|_: &str| None::<String>).check("q.json", &quiz);
+            report.findings.iter().filter(|finding| finding.code == "measures-another").count()
+        };
+        assert_eq!(found("How long does a swing from 0.1 rad take?", "b.T", 1.65), 1);
+        assert_eq!(found("Wie lange dauert eine Schwingung aus 0,1 rad?", "b.T", 1.65), 1);
+        assert_eq!(found("How long does a swing from 1.5 rad take?", "b.T", 1.65), 0);
+        assert_eq!(found("How long does a swing from 1.5 rad take, instead of 0.1 rad?", "b.T", 1.65), 0);
+        assert_eq!(found("How long does a swing take?", "b.T", 1.65), 0);
+    }
+}
