@@ -252,7 +252,7 @@ mod tests {
         assert_eq!(why("", None), "it contains no values");
         assert!(why("a,b\n1,2", None).contains("2 columns"));
         assert!(why("a,b\n1,2", Some("c")).contains("its columns are `a`, `b`"));
-        assert_eq!(why("a,b\n1,2\n3", Some("b")), "row 2 has no value in this column, which is not a number");
-        assert!(why("a\n1\nx", None).contains("row 2 has `x`"));
+        assert_eq!(why("a,b\n1,2\n3", Some("b")), "row 2 of this column has no value");
+        assert!(why("a\n1\nx", None).contains("row 2 of this column has `x`"));
     }
 }

@@ -252,7 +252,7 @@ fn run_examples(first: usize) {
             ("span" | "fileValues", _) => Some("`height`"),
             ("column", _) | ("verify", "table") => Some("no table has the columns"),
             ("verify", "use") => Some("`verify`"),
-            ("find", "smallest") => Some("it has a largest value, but no smallest"),
+            ("find", "smallest") => Some("there is a largest value, but no smallest one"),
             _ => None,
         };
         if let Some(words) = absent {

@@ -1,5 +1,6 @@
 //! A word such as "lowest", "average" or "at the end" in a text whose measure takes another value of the run.
 
+use super::super::option_numbers::{constant, is_below};
 use super::{Other, ReadMeasure};
 use crate::language::Comparison;
 use crate::language::words::find;
@@ -29,14 +30,14 @@ pub(super) fn other(read: &ReadMeasure<'_, '_>, text: &str) -> Option<Other> {
     }
     let tree = parse_expression(&read.text.value).tree;
     let ExprKind::Call { callee, args, .. } = &tree.kind else { return None };
-    let (ExprKind::Name(taken), [inner]) = (&callee.kind, args.as_slice()) else { return None };
-    let is_listed = EXTREMES.iter().any(|(function, _)| function == taken);
-    if !is_listed || taken == function || may_be_negated(inner) {
+    let (ExprKind::Name(function_read), [inner]) = (&callee.kind, args.as_slice()) else { return None };
+    let is_listed = EXTREMES.iter().any(|(function, _)| function == function_read);
+    if !is_listed || function_read == function || may_be_negated(inner) {
         return None;
     }
     let replaced = format!("{function}({})", print(inner));
     Some(Other {
-        said: word.to_string(),
+        words: word.to_string(),
         read: format!("`{}`", read.text.as_str()),
         with: format!("`{replaced}` in the same run"),
         value: read.with_text(replaced.clone())?,
@@ -46,6 +47,10 @@ pub(super) fn other(read: &ReadMeasure<'_, '_>, text: &str) -> Option<Other> {
 /// Whether an expression is one measure, perhaps times a positive number, or compares it with a number.
 fn is_measure(e: &Expr) -> bool {
     match &e.kind {
+        ExprKind::Binary { op, left, right } if is_below(*op, false).is_some() => {
+            let is_number = |e: &Expr| constant(e).is_some();
+            is_number(left) && is_measure(right) || is_number(right) && is_measure(left)
+        }
         ExprKind::Name(_) => true,
         ExprKind::Member { object, .. } => matches!(object.kind, ExprKind::Name(_)),
         ExprKind::Binary { op: BinaryOp::Multiply, left, right } => {

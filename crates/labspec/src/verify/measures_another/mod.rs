@@ -37,13 +37,13 @@ pub(super) fn check_words_of_measure(
     expr: &Text,
     findings: &mut Vec<Finding>,
 ) {
-    let Some(read) = ReadMeasure::of(bound, outcome, expr) else { return };
+    let Some(read) = ReadMeasure::new(bound, outcome, expr) else { return };
     let lower = words.to_lowercase();
     let all: [fn(&ReadMeasure<'_, '_>, &str) -> Option<Other>; 4] =
         [object::other, setting::other, moment::other, extreme::other];
     let Some(other) = all.iter().find_map(|other| other(&read, &lower)) else { return };
     let message =
-        format!("the text says {}, but `{}` reads {}", named(&other.said), expr.as_str(), other.read);
+        format!("the text says {}, but `{}` reads {}", named(&other.words), expr.as_str(), other.read);
     let value = match &other.value {
         Value::Number(x) => format!("there it is {}", significant(*x)),
         _ => "there it does not hold".to_string(),
@@ -59,7 +59,7 @@ pub(super) fn check_words_of_measure(
 /// What the words of a text name in place of what a claim reads.
 struct Other {
     /// The words.
-    said: String,
+    words: String,
     /// What the claim reads.
     read: String,
     /// How the other value was computed: "`force('cork')` in the same run".
@@ -87,7 +87,7 @@ struct ReadMeasure<'b, 'a> {
 
 impl<'b, 'a> ReadMeasure<'b, 'a> {
     /// `None` if a claim reads several numbers, or none.
-    fn of(
+    fn new(
         bound: &'b BoundVerify<'a>,
         outcome: &'b MeasuredRuns,
         expr: &'b Text,

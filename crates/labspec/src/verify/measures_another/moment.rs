@@ -15,7 +15,7 @@ const SAME: f64 = 1e-6;
 
 /// The time after which a text states a value, if the measure reads another one.
 pub(super) fn other(read: &ReadMeasure<'_, '_>, text: &str) -> Option<Other> {
-    let said = stated_time(read, text)?;
+    let words = stated_time(read, text)?;
     let run = read.bound.runs.get(read.run)?;
     let tree = parse_expression(&read.text.value).tree;
     let (time, inner) = match sampled(&tree)? {
@@ -26,12 +26,12 @@ pub(super) fn other(read: &ReadMeasure<'_, '_>, text: &str) -> Option<Other> {
     // A text may count from the press of a button.
     let presses = run.spec.iter().flat_map(|spec| spec.press.iter().map(|(_, time)| time.value));
     let mut starts = presses.chain([0.0]);
-    if starts.any(|start| (start + said.0 - time).abs() <= SAME * time.abs().max(1.0)) {
+    if starts.any(|start| (start + words.0 - time).abs() <= SAME * time.abs().max(1.0)) {
         return None;
     }
-    let replaced = format!("at(data.time >= {} - 1e-9, {})", said.0, print(inner));
+    let replaced = format!("at(data.time >= {} - 1e-9, {})", words.0, print(inner));
     Some(Other {
-        said: said.1,
+        words: words.1,
         read: format!("the time {time} s: `{}`", read.text.as_str()),
         with: format!("`{replaced}` in the same run"),
         value: read.with_text(replaced.clone())?,

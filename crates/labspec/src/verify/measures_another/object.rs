@@ -28,7 +28,7 @@ pub(super) fn other(read: &ReadMeasure<'_, '_>, text: &str) -> Option<Other> {
     });
     let value = read.with_text(replaced.clone())?;
     Some(Other {
-        said: other.to_string(),
+        words: other.to_string(),
         read: format!("`{name}`: `{}`", read.text.as_str()),
         with: format!("`{replaced}` in the same run"),
         value,

@@ -27,17 +27,17 @@ pub(super) fn other(read: &ReadMeasure<'_, '_>, text: &str) -> Option<Other> {
     }
     let mut others =
         runs.iter().enumerate().filter(|(i, (other, _))| *i != read.run && other.swept.is_none());
-    let (index, label, said) = others.find_map(|(i, (other, scene))| {
-        let theirs = settings_of(other, scene);
-        let (label, stated) = theirs.iter().find_map(|(label, given)| {
-            let is_set_here = settings.iter().any(|(own, _)| own == label);
+    let (index, label, words) = others.find_map(|(i, (other, scene))| {
+        let of_other = settings_of(other, scene);
+        let (label, stated) = of_other.iter().find_map(|(label, given)| {
+            let is_set_here = settings.iter().any(|(set, _)| set == label);
             let stated =
                 quantities.iter().find(|q| is_set_here && given.dimension.is_some() && given.is(q))?;
             Some((label.to_string(), stated.text.clone()))
         })?;
         Some((i, label, stated))
     })?;
-    let before = text.get(..text.find(&said.to_lowercase())?)?;
+    let before = text.get(..text.find(&words.to_lowercase())?)?;
     let near = split_words(before).rev().take(COMPARED_WORDS);
     if near.into_iter().any(|word| COMPARED.contains(&word)) || ends_with(before.trim_end(), "→") {
         return None;
@@ -46,7 +46,7 @@ pub(super) fn other(read: &ReadMeasure<'_, '_>, text: &str) -> Option<Other> {
     let x = read.claim.inputs(bound, read.outcome, Vec::new()).at(place)?;
     let (other, _) = runs.get(index)?;
     Some(Other {
-        said,
+        words,
         read: format!("the run {}, which has another value of \"{label}\"", named(run.name)),
         with: format!("the run {}", named(other.name)),
         value: read.with_number(x)?,

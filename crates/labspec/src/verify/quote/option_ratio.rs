@@ -137,12 +137,13 @@ pub(in crate::verify) fn option_ratio(option: &str) -> Option<OptionRatio> {
     // `no more than` ends with `more than`.
     let upper = [WordList::UpperBound, WordList::Largest].into_iter().filter_map(word);
     let below = upper.max_by_key(|word| word.len());
-    let side = match (word(WordList::LowerBound), below) {
-        (Some(lower), Some(upper)) if lower.len() > upper.len() => Some(BoundSide::Above),
-        (Some(_), None) => Some(BoundSide::Above),
-        (_, Some(_)) => Some(BoundSide::Below),
-        (None, None) => None,
+    let (side, bound) = match (word(WordList::LowerBound), below) {
+        (Some(lower), Some(upper)) if lower.len() > upper.len() => (Some(BoundSide::Above), lower),
+        (Some(lower), None) => (Some(BoundSide::Above), lower),
+        (_, Some(upper)) => (Some(BoundSide::Below), upper),
+        (None, None) => (None, ""),
     };
+    let before = before.strip_suffix(bound)?.trim_end();
     let behind = folded.get(place.end..)?;
     if is_setting(before) || is_denied(before) || is_of_unit(behind) {
         return None;
