@@ -446,7 +446,7 @@ fn repairs_that_change_displays_are_guesses() {
         // Fixes that are applied without a request do not change the displayed values.
         let look = |text: &str| {
             let (findings, broken) = case.findings(text);
-            labspec::repair::CheckedText { text: text.to_string(), findings, broken }
+            labspec::repair::CheckedText::new(text.to_string(), findings, broken)
         };
         let (safe, _) = labspec::repair::repair(look(&case.text), false, &look, &|text| case.traces_of(text));
         assert!(traces.is_subset(&case.traces_of(&safe)), "{mistake}");

@@ -47,19 +47,11 @@ pub fn fix_all(document: &Document, lesson: &Lesson, models: &Models) -> Option<
     let check_text = |text: &str| {
         let lesson = load(text);
         let broken = lesson.broken.len();
-        CheckedText {
-            text: text.to_string(),
-            findings: check::check_lesson(lesson, models, level).findings,
-            broken,
-        }
+        CheckedText::new(text.to_string(), check::check_lesson(lesson, models, level).findings, broken)
     };
     let old = lesson.file.text();
     // Findings that require runs of the labs are not computed again.
-    let current = CheckedText {
-        text: old.to_string(),
-        findings: check_text(old).findings,
-        broken: lesson.broken.len(),
-    };
+    let current = CheckedText::new(old.to_string(), check_text(old).findings, lesson.broken.len());
     let (new, made) = repair_text(current, false, &check_text, &|text| traces(&load(text), models));
     if made == 0 {
         return None;

@@ -117,6 +117,16 @@ impl Baseline {
         Ok(all)
     }
 
+    /// What the baseline has about files other than these, which a check of these files does not find again.
+    pub(super) fn of_other_files(mut self, files: &[&SourceFile]) -> Baseline {
+        let checked: BTreeSet<String> = files.iter().map(|file| self.relative(file.path())).collect();
+        let is_there = |folder: &Path, file: &str| folder.join(file).exists();
+        let folder = self.folder.clone();
+        self.baselined.retain(|(key, _), _| !checked.contains(&key.file) && is_there(&folder, &key.file));
+        self.unchecked.retain(|key, _| !checked.contains(&key.file) && is_there(&folder, &key.file));
+        self
+    }
+
     /// Removes the findings that are in the baseline, and returns them.
     pub(super) fn apply(&self, findings: &mut Vec<Finding>, files: &[&SourceFile]) -> Vec<Finding> {
         let mut met: BTreeMap<_, usize> = BTreeMap::new();

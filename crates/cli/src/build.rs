@@ -4,6 +4,7 @@ use super::cache::Cache;
 use super::common::{CommandOutcome, Failure, ModelOptions, interrupted};
 use super::course::{CheckRequest, CourseResults, CrossCheckRequest};
 use super::output::{remove_site_file, write_site_file};
+use super::overview::format_summary;
 use super::policy::PolicyOptions;
 use super::scheduler::check_lessons;
 use super::stdio::print;
@@ -184,7 +185,7 @@ fn report(a: &BuildArguments, results: &CourseResults, site: &Site) -> Result<Co
     }
     text.push_str(&format!(
         "{}\nwrote {} ({}) to {}; {} carry the mark \"verified\"{}\n",
-        results.ledger.summary(),
+        format_summary(results),
         counted(site.lessons, "lesson"),
         counted(site.files.len(), "file"),
         printable_path(&a.out),

@@ -77,7 +77,7 @@ pub(super) struct CheckArguments {
     common: VerifyArguments,
     /// Check structure, models and the names in every text, but run nothing: labs and claims count as left out,
     /// and the exit code is 3 if no problems are found
-    #[arg(long)]
+    #[arg(long, conflicts_with = "update_baseline")]
     no_run: bool,
     /// Also run the Python listings that have an output below them, without a network and with limits, and compare the
     /// output; [listings] in labspec.toml has their settings. Run only listings that you trust with your files
@@ -158,6 +158,9 @@ fn run_check(
     paths: RecordPaths<'_>,
 ) -> Result<CommandOutcome, Failure> {
     let CheckMode { level, skip_others, with_evidence, .. } = mode;
+    if a.statistics && a.format != CheckFormat::Human {
+        return Err("--statistics is for people; leave out --format".into());
+    }
     let cache = Cache::open(a.no_cache, a.watch);
     let listings = mode.listings.then(|| ListingRunner::new(&cache));
     let processors = || std::thread::available_parallelism().map_or(1, NonZeroUsize::get);

@@ -89,7 +89,9 @@ pub(super) fn report_results(
         .previous
         .map(|(file, old)| (*file, since::changes(old, &reproduction::current(file, results))));
     match options.format {
-        _ if options.statistics => print(&report::statistics(&results.findings))?,
+        _ if options.statistics => {
+            print(&format!("{}{}\n", report::statistics(&results.findings), format_summary(results)))?;
+        }
         CheckFormat::Human if options.quiet => print(&format!("{}\n", format_summary(results)))?,
         CheckFormat::Human => print(&human_text(options, outcome, results, &sources, changes.as_ref()))?,
         CheckFormat::Json => {
@@ -112,14 +114,16 @@ pub(super) fn report_results(
     command_outcome(options, outcome, results)
 }
 
-/// If a format consists of findings, there are none, and the check failed: the reason on standard error.
+/// If a format consists of findings, and they are not the reason why the check is not clean: the reason on standard error.
 fn print_unlisted_outcome(options: &OutputOptions<'_>, outcome: ledger::Outcome, results: &CourseResults) {
     let lists_findings = matches!(
         options.format,
         CheckFormat::Concise | CheckFormat::Jsonl | CheckFormat::Gitlab | CheckFormat::Sarif
     );
     let is_problem = |f: &labspec::finding::Finding| f.severity != labspec::finding::Severity::Note;
-    if lists_findings && outcome == ledger::Outcome::Findings && !results.findings.iter().any(is_problem) {
+    let is_listed = results.findings.iter().any(is_problem) && outcome == ledger::Outcome::Findings;
+    if lists_findings && !is_listed && matches!(outcome, ledger::Outcome::Findings | ledger::Outcome::Partial)
+    {
         print_error(&format!("{}\n", printable_lines(&format_summary(results))));
     }
 }
@@ -156,7 +160,9 @@ fn write_files(
         }
         let lessons: Vec<&Lesson> = results.checked.iter().map(|c| &c.lesson).collect();
         let claims = (results.ledger.entries(), lessons.as_slice());
-        Baseline::new(file).write(file, &results.findings, sources, claims)?;
+        let others =
+            if file.exists() { Baseline::read(file)?.of_other_files(sources) } else { Baseline::new(file) };
+        others.write(file, &results.findings, sources, claims)?;
     }
     if let Some(file) = options.record.filter(|_| !interrupted()) {
         reproduction::write(file, &reproduction::current(file, results))?;
@@ -215,8 +221,14 @@ fn command_outcome(
     results: &CourseResults,
 ) -> Result<CommandOutcome, Failure> {
     if options.new_baseline.is_some() {
-        // The current findings have become the baseline, so there are no new ones.
-        return Ok(CommandOutcome::Clean);
+        // The current findings have become the baseline, so there are no new ones. A claim whose finding is ignored is not in it.
+        let is_ignored = results.suppressed.ignored.iter().any(labspec::finding::Finding::is_error);
+        match outcome {
+            ledger::Outcome::Findings if is_ignored => return Ok(CommandOutcome::Findings),
+            ledger::Outcome::Partial => return Ok(CommandOutcome::Partial),
+            ledger::Outcome::Nothing => {}
+            _ => return Ok(CommandOutcome::Clean),
+        }
     }
     let names = || options.paths.iter().map(|p| printable_path(p)).collect::<Vec<_>>().join(", ");
     match outcome {

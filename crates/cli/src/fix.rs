@@ -3,23 +3,27 @@
 //! [`labspec::repair`] decides which fixes are applied, and how they are verified. All other bytes of
 //! the file remain unchanged.
 
-use super::collect::collect;
+use super::collect::{ListedFile, collect};
 use super::common::{Failure, interrupted};
 use super::course::CheckRequest;
 use super::file_check::is_other_json;
 use super::output::write_file;
 use super::output_kind::OutputKind;
 use super::policy::Policies;
-use super::stdio::print;
+use super::stdio::{print, print_error};
 use super::target::model_folder_within;
 use labspec::bind::scene::Models;
-use labspec::check;
+use labspec::check::{self, CheckLevel};
+use labspec::finding::Finding;
 use labspec::lint::{load_lesson_file, reload_lesson};
 use labspec::repair::{CheckedText, repair, traces};
 use labspec::report::{printable, printable_path};
+use labspec::rules;
+use labspec::source::SourceFile;
 use labspec::spec::{FileKind, Lesson, kind_of};
+use labspec_finding::Layer;
 use similar::TextDiff;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The options of `--fix`.
 #[derive(Clone, Copy, Debug)]
@@ -44,7 +48,8 @@ pub(super) struct AppliedFixes {
 pub(super) fn fix(request: &CheckRequest<'_>, mode: FixMode) -> Result<AppliedFixes, Failure> {
     let mut policies = Policies::new(request.policy)?;
     let mut repaired = AppliedFixes::default();
-    for (path, named) in collect(request.paths).files {
+    let files = collect(request.paths).files;
+    for (path, named) in files.iter().cloned() {
         if interrupted() {
             break;
         }
@@ -60,16 +65,19 @@ pub(super) fn fix(request: &CheckRequest<'_>, mode: FixMode) -> Result<AppliedFi
         lesson.conventions = policy.conventions.clone();
         let models = Models::new(folder);
         let look = |lesson: Lesson| {
-            let mut found = check::run_checks(&lesson, &models, request.level);
+            // The runs and the claims decide whether a fix stays, whatever is reported.
+            let mut found = check::run_checks(&lesson, &models, CheckLevel::FULL);
             if let Some(listings) = request.listings {
                 let results = listings.check_lesson(&lesson, &policy.listings, &mut found.findings);
                 check::claim_printed_numbers(&lesson, &results, &mut found);
             }
             let broken = lesson.broken.len();
-            let checked = check::join(lesson, found, request.level);
+            let checked = check::join(lesson, found, CheckLevel::FULL);
             let mut findings = checked.findings;
+            let errors = findings.iter().filter(|f| f.is_error()).count();
             policy.apply(&mut findings);
-            CheckedText { text: checked.lesson.file.text().to_string(), findings, broken }
+            findings.retain(|f| request.level.labs || !is_of_runs(f));
+            CheckedText { text: checked.lesson.file.text().to_string(), findings, errors, broken }
         };
         let old = lesson.file.text().to_string();
         let first = lesson.clone();
@@ -79,15 +87,55 @@ pub(super) fn fix(request: &CheckRequest<'_>, mode: FixMode) -> Result<AppliedFi
         if count == 0 || interrupted() {
             continue;
         }
-        repaired.fixes += count;
-        repaired.files += 1;
         if mode.diff {
             print(&difference(&path, &old, &new))?;
         } else {
+            let users = lessons_that_use(&path, &files);
+            let before = errors_of(&users, request)?;
             write_file(&path, OutputKind::Lesson(&old), &new)?;
+            if errors_of(&users, request)? > before {
+                write_file(&path, OutputKind::Lesson(&new), &old)?;
+                print_error(&format!(
+                    "{} is unchanged: with its fixes, a lesson that uses its labs would have more errors\n",
+                    printable_path(&path)
+                ));
+                continue;
+            }
         }
+        repaired.fixes += count;
+        repaired.files += 1;
     }
     Ok(repaired)
+}
+
+/// The lessons whose text names a lab of another lesson: `deg.md#1`.
+fn lessons_that_use(path: &Path, files: &[ListedFile]) -> Vec<PathBuf> {
+    let Some(name) = path.file_name().map(|name| format!("{}#", name.to_string_lossy())) else {
+        return Vec::new();
+    };
+    let is_user = |other: &&PathBuf| {
+        let text = (*other != path).then(|| SourceFile::read(other).ok()).flatten();
+        text.is_some_and(|file| file.text().contains(&name))
+    };
+    files.iter().map(|(other, _)| other).filter(is_user).cloned().collect()
+}
+
+/// The number of errors of some lessons.
+fn errors_of(paths: &[PathBuf], request: &CheckRequest<'_>) -> Result<usize, Failure> {
+    let mut errors = 0;
+    for path in paths {
+        let folder = model_folder_within(request.models, path, request.paths)?;
+        let Ok(lesson) = load_lesson_file(path, &folder) else { continue };
+        let found = check::run_checks(&lesson, &Models::new(folder), CheckLevel::FULL);
+        let checked = check::join(lesson, found, CheckLevel::FULL);
+        errors += checked.findings.iter().filter(|f| f.is_error()).count();
+    }
+    Ok(errors)
+}
+
+/// Whether a finding is one of runs or claims, which `--no-run` does not report.
+fn is_of_runs(f: &Finding) -> bool {
+    rules::find(f.code).is_some_and(|rule| matches!(rule.layer, Layer::Run | Layer::Claim))
 }
 
 /// The changes of a file in the format of `diff -u`.

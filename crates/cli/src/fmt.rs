@@ -35,7 +35,17 @@ pub(super) fn fmt(a: &FmtArguments) -> Result<CommandOutcome, Failure> {
     let mut failures: Vec<String> = Vec::new();
     let collected = collect(&a.paths);
     collected.print_skipped();
-    let Collected { files, problems, .. } = collected;
+    let Collected { files, problems, skipped } = collected;
+    if files.is_empty() && problems.is_empty() {
+        let names: Vec<String> = a.paths.iter().map(|path| printable_path(path).to_string()).collect();
+        return Err(format!(
+            "there is nothing to format in {}: no lesson and no JSON file",
+            names.join(", ")
+        ));
+    }
+    if !skipped.is_empty() {
+        outcome = CommandOutcome::Partial;
+    }
     failures.extend(problems.into_iter().map(|(_, why)| why));
     for (path, named) in files {
         if interrupted() {
@@ -63,6 +73,14 @@ fn one(a: &FmtArguments, path: &Path, named: bool) -> Result<Option<String>, Fai
     let lesson = load_lesson_at(file, path, &Sources::Disk, &folder);
     if !named && is_other_json(&lesson) {
         return Ok(None);
+    }
+    if !lesson.broken.is_empty() {
+        return Err(format!(
+            "{} is unchanged: {} cannot be read; `labspec check {}` says why",
+            printable_path(path),
+            counted(lesson.broken.len(), "block"),
+            printable_path(path)
+        ));
     }
     let mut models = Models::new(folder.clone());
     // The formatted text is parsed again before the file is replaced.

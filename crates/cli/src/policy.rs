@@ -276,7 +276,8 @@ impl Policies {
             return Ok(cached.clone());
         }
         let file = folder.join(FILE);
-        let found = if file.is_file() {
+        // A folder with this name, or a link that leads nowhere, is an error when it is read.
+        let found = if file.symlink_metadata().is_ok() {
             Some(Arc::new(read(&file)?))
         } else {
             self.nearest_settings(folder.parent())?

@@ -151,10 +151,11 @@ impl Backend for Author<'_> {
             let broken = lesson.broken.len();
             let checked = check::join(lesson, found, CheckLevel::FULL);
             let mut findings = checked.findings;
+            let errors = findings.iter().filter(|f| f.is_error()).count();
             policy.apply(&mut findings);
             let is_other = |f: &&mut Finding| f.code != finding.code || f.fix != finding.fix;
             findings.iter_mut().filter(is_other).for_each(|f| f.fix = None);
-            CheckedText { text: checked.lesson.file.text().to_string(), findings, broken }
+            CheckedText { text: checked.lesson.file.text().to_string(), findings, errors, broken }
         };
         let again = |text: &str| look(reload_lesson(lesson, text, models.folder()));
         let displayed = |text: &str| traces(&reload_lesson(lesson, text, models.folder()), &models);

@@ -99,7 +99,7 @@ struct ReviewedSnapshot {
 pub(super) fn snapshot(a: &SnapshotArguments) -> Result<CommandOutcome, Failure> {
     let terminal = std::io::stdin().is_terminal() && std::io::stdout().is_terminal();
     let asks = a.review && a.format == SnapshotFormat::Human && terminal;
-    let mut all = collect_lessons(a)?;
+    let (mut all, has_skipped) = collect_lessons(a)?;
     for one in &mut all {
         if interrupted() {
             return Ok(CommandOutcome::Findings);
@@ -127,14 +127,20 @@ pub(super) fn snapshot(a: &SnapshotArguments) -> Result<CommandOutcome, Failure>
     };
     let unread = |one: &ReviewedSnapshot| one.standing == SnapshotStatus::Unreadable && !one.written;
     let bad = all.iter().any(|one| open(one) || unread(one));
-    Ok(if bad { CommandOutcome::Findings } else { CommandOutcome::Clean })
+    let in_part =
+        all.iter().flat_map(|one| &one.renewal).flat_map(|r| &r.labs).any(|lab| lab.incomplete.is_some());
+    Ok(match () {
+        () if bad => CommandOutcome::Findings,
+        () if in_part || has_skipped => CommandOutcome::Partial,
+        () => CommandOutcome::Clean,
+    })
 }
 
-/// Reads every lesson, runs its labs, and compares the output with the snapshots.
-fn collect_lessons(a: &SnapshotArguments) -> Result<Vec<ReviewedSnapshot>, Failure> {
+/// Reads every lesson, runs its labs, and compares the output with the snapshots. Also returns whether a path was skipped.
+fn collect_lessons(a: &SnapshotArguments) -> Result<(Vec<ReviewedSnapshot>, bool), Failure> {
     let collected = collect(&a.paths);
     collected.print_skipped();
-    let Collected { files, problems, .. } = collected;
+    let Collected { files, problems, skipped } = collected;
     if let Some((_, why)) = problems.first() {
         return Err(why.clone());
     }
@@ -157,7 +163,7 @@ fn collect_lessons(a: &SnapshotArguments) -> Result<Vec<ReviewedSnapshot>, Failu
             continue;
         }
         let renewal = check::update_snapshot(&lesson, models);
-        let same = |lab: &UpdatedLab| matches!(lab.result.state, State::True(_));
+        let same = |lab: &UpdatedLab| is_same(lab);
         let standing = match &renewal {
             r if r.fault.is_some() => SnapshotStatus::Unreadable,
             r if !r.stored => SnapshotStatus::New,
@@ -181,7 +187,12 @@ fn collect_lessons(a: &SnapshotArguments) -> Result<Vec<ReviewedSnapshot>, Failu
         let names: Vec<String> = a.paths.iter().map(|p| printable_path(p)).collect();
         return Err(format!("{} has no lab", names.join(", ")));
     }
-    Ok(all)
+    Ok((all, !skipped.is_empty()))
+}
+
+/// Whether the output of a lab is as stored, as far as it was compared.
+fn is_same(lab: &UpdatedLab) -> bool {
+    matches!(lab.result.state, State::True(_) | State::NotClaimed | State::Skipped)
 }
 
 /// Labs whose output differs from the snapshot, or is not stored, even after this command.
@@ -190,7 +201,7 @@ fn remaining_changes(one: &ReviewedSnapshot) -> impl Iterator<Item = &UpdatedLab
     labs.filter(|lab| {
         let can = lab.new.is_some() || lab.result.state == State::False;
         let done = can && one.accepted.contains(&lab.result.lab);
-        !done && !matches!(lab.result.state, State::True(_))
+        !done && !is_same(lab)
     })
 }
 
@@ -301,6 +312,11 @@ fn summary(all: &[ReviewedSnapshot], asked: bool) -> String {
             if listed {
                 text.push_str(&describe_lab(lab));
             }
+        }
+    }
+    for lab in all.iter().flat_map(|one| &one.renewal).flat_map(|r| &r.labs) {
+        if let Some(why) = &lab.incomplete {
+            let _ = writeln!(text, "in part    lab {}: {why}", printable(&lab.result.lab));
         }
     }
     if same > 0 {

@@ -101,7 +101,8 @@ fn lay_out_blocks(lesson: &Lesson, edits: &mut Vec<(Range<usize>, String)>) -> u
     let mut count = 0;
     for (old, new) in before.into_iter().zip(after) {
         let (text, column) = (coded.slice(new.clone()), coded.position(new.start).column - 1);
-        let Some(mut json) = json::lay_out(text, column) else { continue };
+        let lines = if windows { text.replace("\r\n", "\n") } else { text.to_string() };
+        let Some(mut json) = json::lay_out(&lines, column) else { continue };
         if windows {
             json = json.replace('\n', "\r\n");
         }

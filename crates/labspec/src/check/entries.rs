@@ -108,8 +108,13 @@ impl LessonEntries<'_> {
     fn add_labs(&mut self) {
         let lesson = &self.checked.lesson;
         for ran in &self.checked.labs {
-            let span = lesson.lab(&ran.address).map_or(0..0, |lab| lab.span.clone());
-            let (state, word, remark) = lab(ran);
+            let of_lesson = lesson.lab(&ran.address);
+            let span = of_lesson.map_or(0..0, |lab| lab.span.clone());
+            let (state, word, remark) = match of_lesson.and_then(|lab| lab.unread_key) {
+                // It was run without what the key says.
+                Some(key) => (State::Unchecked, "in part", format!("its `{key}` cannot be read")),
+                None => lab(ran),
+            };
             let owner = format!("lab {}", ran.address);
             let about = self.entry(Subject::Lab, &owner, &span, state, word);
             self.entries.push(Entry { what: ran.title.clone(), remark, ..about });

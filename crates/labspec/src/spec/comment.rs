@@ -4,6 +4,7 @@
 use super::lab::Verify;
 use crate::markdown::Scan;
 use crate::source::SourceFile;
+use labspec_finding::nearest;
 use std::ops::Range;
 
 const OPENS: &str = "<!--";
@@ -91,6 +92,75 @@ pub(super) fn labspec_comments(text: &str, scan: &Scan, word: &str) -> Vec<(Rang
         }
     }
     all
+}
+
+/// A comment that begins with `labspec` and that nothing reads.
+pub(crate) struct UnreadComment {
+    pub(crate) span: Range<usize>,
+    /// The unknown keyword as the known one that it resembles, if there is one; `None` if the marks of the comment are wrong.
+    pub(crate) keyword: Option<Option<&'static str>>,
+}
+
+/// The keywords of comments.
+const KEYWORDS: [&str; 3] = [CLAIM, DEFINITION, "allow"];
+/// Comments of Markdown with JavaScript.
+const MDX_OPENS: &str = "{/*";
+/// The most bytes of a comment that are read here.
+const MAX_WORDS: usize = 200;
+
+/// The comments that begin with `labspec` or a word like it, and that nothing reads.
+pub(crate) fn unread_comments(text: &str, scan: &Scan) -> Vec<UnreadComment> {
+    let mut all = Vec::new();
+    for html in &scan.html {
+        let Some(part) = text.get(html.clone()) else { continue };
+        for (offset, _) in part.match_indices(OPENS) {
+            let start = html.start + offset;
+            let closed = part.get(offset..).and_then(|t| t.find(CLOSES)).map(|end| start + end);
+            let inside = start + OPENS.len()..closed.unwrap_or(html.end);
+            let end = closed.map_or(html.end, |end| end + CLOSES.len());
+            let Some((name, keyword, is_object)) = first_words(text.get(inside.clone()).unwrap_or("")) else {
+                continue;
+            };
+            let is_read = KEYWORDS.iter().any(|word| behind(text, inside.clone(), word).is_some());
+            if closed.is_some() && is_read || !is_ours(&name, &keyword, is_object) {
+                continue;
+            }
+            let has_keyword = closed.is_some() && !KEYWORDS.contains(&keyword.as_str());
+            let near = || nearest(&keyword, KEYWORDS);
+            all.push(UnreadComment { span: start..end, keyword: has_keyword.then(near) });
+        }
+    }
+    all.extend(mdx_comments(text, scan));
+    all
+}
+
+/// The comments `{/* labspec … */}` outside of blocks.
+fn mdx_comments<'t>(text: &'t str, scan: &'t Scan) -> impl Iterator<Item = UnreadComment> + 't {
+    text.match_indices(MDX_OPENS).filter_map(|(start, _)| {
+        let behind = start + MDX_OPENS.len();
+        let (name, keyword, is_object) = first_words(text.get(behind..)?)?;
+        let last = scan.blocks.partition_point(|block| block.span.start <= start).checked_sub(1);
+        let is_in_block =
+            last.and_then(|i| scan.blocks.get(i)).is_some_and(|block| block.span.contains(&start));
+        let end = text.get(behind..)?.find("*/}").map_or(behind, |end| behind + end + 3);
+        (!is_in_block && is_ours(&name, &keyword, is_object))
+            .then_some(UnreadComment { span: start..end, keyword: None })
+    })
+}
+
+/// The first two words of a comment in lower case, and whether an object follows.
+fn first_words(inside: &str) -> Option<(String, String, bool)> {
+    let end = (0..=MAX_WORDS.min(inside.len())).rev().find(|i| inside.is_char_boundary(*i))?;
+    let head = inside.get(..end)?.trim_start_matches(|c: char| c == '-' || c == '!' || c.is_whitespace());
+    let mut words = head.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
+    let name = words.next()?.to_lowercase();
+    Some((name, words.next().unwrap_or("").to_lowercase(), head.contains('{')))
+}
+
+/// Whether a comment with these first words is meant for labspec.
+fn is_ours(name: &str, keyword: &str, is_object: bool) -> bool {
+    let is_keyword = KEYWORDS.contains(&keyword);
+    name == OURS || nearest(name, [OURS]).is_some() && name.len() > 4 && (is_keyword || is_object)
 }
 
 /// The bytes of the comments with claims and definitions, and of the JSON in them.

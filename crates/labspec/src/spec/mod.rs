@@ -36,8 +36,8 @@ pub use answer_key::{AnswerHash, AnswerKey, KeyValue};
 pub use claim::{
     Change, Column, Exact, Find, MOST_AXES, MOST_SWEPT, Said, Stands, Sweep, SweepAxis, SweepValue,
 };
-pub(crate) use comment::claims_in_comments;
 pub use comment::{Definition, Remark};
+pub(crate) use comment::{UnreadComment, claims_in_comments, unread_comments};
 pub use control::{Action, Choice, Control, ControlKind};
 pub use conventions::Conventions;
 pub use integrators::{ENERGY_DRIFT, INTEGRATOR};

@@ -5,7 +5,7 @@ use super::fields::Fields;
 use super::format::{CAMERA, INTEGRATORS, LAB, Object, RUN, VERIFY};
 use super::integrators::{add_comparison, read_comparison};
 use super::lab::{BreakExpectation, Camera, Expect, Lab, Run, UsedObject, Verify, VerifyLab};
-use super::problem::{Mistake, Problem};
+use super::problem::{Meant, Misfit, Mistake, Problem};
 use super::read_claim::{
     read_all_says, read_change, read_columns, read_exact, read_expectation, read_find, read_measures,
     read_over, read_press, read_sweep,
@@ -33,6 +33,7 @@ pub(super) fn read_any_lab(node: &Node, problems: &mut Vec<Problem>) -> Option<L
 }
 
 fn read_keys(node: &Node, object: &'static Object, problems: &mut Vec<Problem>) -> Option<Lab> {
+    let first = problems.len();
     let mut fields = Fields::open(node, object, problems)?;
     let f = &mut fields;
     let lab = Lab {
@@ -77,11 +78,31 @@ fn read_keys(node: &Node, object: &'static Object, problems: &mut Vec<Problem>) 
             ("controller", lab.controller.is_none()),
         ],
     );
+    let misspelt = misspelt_key(problems.get(first..).unwrap_or_default(), object.what);
+    let unread_key = unread_key.or(misspelt.filter(|key| DECISIVE_KEYS.contains(key)));
     let unread_controls = lab.controls.len() < listed || no_list_of_controls(node);
     let lab = Lab { unread_controls, unread_key, ..lab };
     Some(match comparison {
         Some(comparison) => add_comparison(lab, comparison),
         None => lab,
+    })
+}
+
+/// Keys of a lab that decide about its runs.
+const DECISIVE_KEYS: [&str; 7] = ["model", "xml", "key", "stopAt", "setup", "controller", "controls"];
+
+/// The key that is probably meant by an unknown key of an object: the page does not read it, even where the check does.
+fn misspelt_key(problems: &[Problem], object: &'static str) -> Option<&'static str> {
+    problems.iter().find_map(|problem| match problem {
+        Problem::Format(Misfit { mistake: Mistake::UnknownKey { object: of, meant, .. }, .. })
+            if *of == object =>
+        {
+            match meant {
+                Meant::There(key) | Meant::Likely(key) | Meant::Other { key, .. } => Some(*key),
+                Meant::Unclear(_) => None,
+            }
+        }
+        _ => None,
     })
 }
 

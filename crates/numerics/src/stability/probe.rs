@@ -130,6 +130,11 @@ pub fn probe(
     // A control may set the timestep.
     let timestep = case.start(&case.base, WORK).world.model.opt.timestep;
     let steps = run::count_steps(lab, Some(length), None, timestep)?;
+    if steps == 0 {
+        return Err(RunError::new(format!(
+            "a run of {length} s has no step of {timestep} s, so nothing would be tested"
+        )));
+    }
     run::presses_within(programs, &run::presses(programs, &options.press)?, steps, timestep)?;
     let (interactions, skipped_pairs) = list_interactions(lab, short, &case.base);
     let mut report = empty_report(length, short, skipped_pairs);

@@ -41,6 +41,8 @@ pub(super) struct SnapshotDifference {
     pub(super) first: Option<(Divergence, usize)>,
     /// Number of rows that differ, over all runs.
     pub(super) rows: usize,
+    /// Number of values that were compared: those without a certain digit are not.
+    pub(super) compared: usize,
 }
 
 pub(super) fn compare(stored: &StoredLab, current: &[&SnapshotRun]) -> SnapshotDifference {
@@ -85,6 +87,8 @@ fn compare_run(old: &StoredRun, run: &SnapshotRun, all: &mut SnapshotDifference)
     if !moved {
         for &(i, j) in &names {
             let (Some(row), Some((_, cells))) = (old.rows.get(i), run.rows.get(j)) else { continue };
+            all.compared +=
+                row.cells.iter().zip(cells).filter(|(stored, _)| *stored != NO_CERTAIN_DIGIT).count();
             let wrong = row.cells.iter().zip(cells).position(|(stored, cell)| !agrees(stored, cell));
             let Some(k) = wrong else { continue };
             all.rows += 1;

@@ -51,6 +51,7 @@ impl SnapshotResult {
         match self.state {
             State::True(_) => "as stored",
             State::Skipped => "left out",
+            State::NotClaimed => "no values",
             State::False if self.divergence.is_some() => "differs",
             State::False => "changed",
             _ => "unchecked",
@@ -101,6 +102,8 @@ pub struct UpdatedLab {
     pub old: Option<String>,
     /// Its lines as they would be written now; `None` for a lab that was removed or cannot run.
     pub new: Option<String>,
+    /// Which of its runs are missing, or cut short; `None` if there are none.
+    pub incomplete: Option<String>,
 }
 
 impl SnapshotUpdate {
@@ -222,7 +225,7 @@ fn compare_lab(
         return result;
     };
     let runs: Vec<&SnapshotRun> = current.runs.iter().map(|(_, run)| run).collect();
-    let SnapshotDifference { changes, first, rows } = compare::compare(old, &runs);
+    let SnapshotDifference { changes, first, rows, compared } = compare::compare(old, &runs);
     let file = lesson.snapshot.as_ref().and_then(|s| s.as_ref().ok()).map_or(String::new(), name_of);
     if let Some((d, probe)) = &first {
         let message = format!(
@@ -250,9 +253,22 @@ fn compare_lab(
         findings.push(outdated(place, message, lesson));
     }
     let good = first.is_none() && changes.is_empty();
-    result.state = if good { State::True(Evidence::Simulated) } else { State::False };
+    (result.state, result.reason) = match good {
+        false => (State::False, String::new()),
+        true if compared == 0 => {
+            (State::NotClaimed, "its snapshot has no value with a certain digit".to_string())
+        }
+        true if current.incomplete > 0 => (State::Skipped, not_compared(current)),
+        true => (State::True(Evidence::Simulated), String::new()),
+    };
     (result.changes, result.divergence, result.rows) = (changes, first.map(|(d, _)| d), rows);
     result
+}
+
+/// Which runs of a lab were not compared to their end.
+fn not_compared(current: &LabRuns<'_, '_>) -> String {
+    let all = current.runs.len().max(current.incomplete);
+    format!("{} of at least {all} runs need more work than a file may take", current.incomplete)
 }
 
 fn outdated(place: Range<usize>, message: String, lesson: &Lesson) -> Finding {
@@ -281,12 +297,13 @@ pub fn update_snapshot(lesson: &Lesson, models: &Models) -> SnapshotUpdate {
     let one = |current: &LabRuns<'_, '_>| {
         let result = compare_lab(current, &old, lesson, &mut Vec::new());
         let stored_text = old.iter().find(|lab| lab.address == result.lab).map(|lab| lab.text.clone());
-        UpdatedLab { result, old: stored_text, new: current_lines(current) }
+        let incomplete = (current.incomplete > 0).then(|| not_compared(current));
+        UpdatedLab { result, old: stored_text, new: current_lines(current), incomplete }
     };
     let mut labs: Vec<UpdatedLab> = lab_runs.iter().map(one).collect();
     let lost = removed_labs(&old, &lab_runs).map(|result| {
         let text = old.iter().find(|lab| lab.address == result.lab).map(|lab| lab.text.clone());
-        UpdatedLab { result, old: text, new: None }
+        UpdatedLab { result, old: text, new: None, incomplete: None }
     });
     labs.extend(lost);
     let name = Path::new(&**lesson.file.path())

@@ -2,7 +2,7 @@
 
 use super::super::PreparedLab;
 use crate::run::Integrator;
-use crate::run::{self, Budget, Cell, Play, RunError, Session, Start, StepVariant};
+use crate::run::{self, Budget, Cell, End, Play, RunError, Session, Start, StepVariant};
 use crate::spec::{ControlKind, Lab, LabAddress, Lesson};
 use crate::stress::window;
 use crate::verify::significant;
@@ -32,6 +32,8 @@ pub(super) struct SnapshotRun {
     pub(super) times: Vec<f64>,
     /// The name of each trace and readout, and a value for each time.
     pub(super) rows: Vec<(String, Vec<Cell>)>,
+    /// Whether the limit of work ended it early.
+    pub(super) is_cut: bool,
 }
 
 /// A lab with its runs.
@@ -41,6 +43,8 @@ pub(super) struct LabRuns<'r, 'l> {
     /// `None` where it cannot run.
     pub(super) ready: Option<&'r PreparedLab<'l>>,
     pub(super) runs: Vec<(SnapshotInput, SnapshotRun)>,
+    /// The number of runs that were not made, or that were cut short, because a file has a limit of work.
+    pub(super) incomplete: usize,
 }
 
 /// The runs of all labs of a lesson, within the budget of a file. Each lab is run at least as loaded.
@@ -52,17 +56,24 @@ pub(super) fn run_labs<'r, 'l>(lesson: &'l Lesson, ready: &'r [PreparedLab<'l>])
         let mut share = left / others.max(1);
         others = others.saturating_sub(1);
         let one = ready.iter().find(|r| std::ptr::eq(r.lab, lab));
-        let mut runs = Vec::new();
-        for (i, input) in snapshot_inputs(lab).into_iter().enumerate() {
-            let Some(one) = one.filter(|_| i == 0 || share > 0) else { break };
+        let mut runs: Vec<(SnapshotInput, SnapshotRun)> = Vec::new();
+        let inputs = snapshot_inputs(lab);
+        let mut incomplete = 0;
+        for (i, input) in inputs.into_iter().enumerate() {
+            let Some(one) = one else { break };
+            if i > 0 && share == 0 {
+                incomplete += 1;
+                continue;
+            }
             let Ok((run, spent)) = play(one, &input, StepVariant::NOMINAL, Budget::TRIAL) else {
                 continue;
             };
             share = share.saturating_sub(spent);
             left = left.saturating_sub(spent);
+            incomplete += usize::from(run.is_cut);
             runs.push((input, run));
         }
-        all.push(LabRuns { address, lab, ready: one, runs });
+        all.push(LabRuns { address, lab, ready: one, runs, incomplete });
     }
     all
 }
@@ -134,7 +145,8 @@ pub(super) fn play(
     };
     let rows = programs.probes.iter().enumerate().map(|(i, p)| (p.name.clone(), column(i + 1))).collect();
     let times = looks.iter().map(|&step| step as f64 * timestep).collect();
-    Ok((SnapshotRun { name: input.name.clone(), about, times, rows }, session.spent()))
+    let is_cut = matches!(session.ended(), Some(End::Budget { .. }));
+    Ok((SnapshotRun { name: input.name.clone(), about, times, rows, is_cut }, session.spent()))
 }
 
 /// The length and the numerics of a run.

@@ -76,6 +76,7 @@ mod tests {
                 ("plot/0/z \"up\"".into(), z.iter().map(|x| Cell::Number(*x)).collect()),
                 ("readout/on".into(), vec![Cell::Bool(true), Cell::Nothing, Cell::Text("a b".into())]),
             ],
+            is_cut: false,
         }
     }
 
