@@ -116,6 +116,7 @@ mod trust;
 mod tutorial;
 mod twenty;
 mod under_hands;
+mod unearned;
 mod verify;
 mod verify_quotes;
 mod verify_runs;

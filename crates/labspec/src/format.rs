@@ -133,8 +133,10 @@ fn json_ranges(file: &SourceFile) -> Vec<Range<usize>> {
         |offset: usize| offset == 0 || text.get(..offset).is_some_and(|before| before.ends_with('\n'));
     let bodies = scan.blocks.iter().filter(|block| !matches!(block.kind, BlockKind::Code { .. })).filter_map(
         |block| {
-            let (body, lines) = (block.body.span(), 0..block.body.value.len());
-            let is_plain = block.whole && block.body.map.is_unbroken(lines) && at_line_start(body.start);
+            let body = block.body.span();
+            // Line breaks of Windows are single characters in a block.
+            let is_as_written = file.slice(body.clone()).replace("\r\n", "\n") == *block.body.value;
+            let is_plain = block.whole && is_as_written && at_line_start(body.start);
             is_plain.then(|| trimmed(body))
         },
     );

@@ -3,12 +3,14 @@
 use super::bound::BoundVerify;
 use super::bound_run::{BoundRun, BoundScene};
 use super::quote::{OptionNumber, quantities_in};
-use crate::bind::given_by;
+use crate::bind::{given_by, scalar};
 use crate::json::Scalar;
+use crate::language::Languages;
 use crate::source::Text;
-use crate::spec::Question;
+use crate::spec::{Choice, ControlKind, Question};
 use labspec_bind::units::parse;
 use labspec_expr::dimension::{Dimension, Measure};
+use std::collections::BTreeSet;
 
 /// A number that a text may repeat, with its dimension if that is known.
 pub(super) struct GivenNumber {
@@ -31,19 +33,47 @@ impl GivenNumber {
     }
 }
 
-/// The numbers that a run sets, with the labels of their controls.
-pub(super) fn settings_of<'r>(run: &BoundRun<'r>, scene: &BoundScene<'_>) -> Vec<(&'r str, GivenNumber)> {
-    let Some(spec) = run.spec else { return Vec::new() };
-    let set = spec.set.iter().filter_map(|(label, value)| {
-        let Scalar::Number(x) = value else { return None };
-        let control = scene.scene.lab.control(label.as_str());
-        let dimension = control.and_then(|control| match given_by(control) {
-            Measure::Dimension(d) => Some(d),
+/// The quantities that a run has where a run of the same `verify` object sets a control, with the labels of the controls: what the run sets,
+/// or the start value of the control.
+pub(super) fn settings_of<'v>(
+    bound: &'v BoundVerify<'_>,
+    run: &BoundRun<'_>,
+    scene: &'v BoundScene<'_>,
+) -> Vec<(&'v str, GivenNumber)> {
+    let all = bound.runs.iter().filter_map(|run| run.spec).flat_map(|spec| &spec.set);
+    let labels: BTreeSet<&str> = all.map(|(label, _)| label.as_str()).collect();
+    let languages = bound.stage().languages();
+    let given = labels.into_iter().filter_map(|label| {
+        let control = scene.scene.lab.control(label)?;
+        let set = run.spec.and_then(|spec| spec.set.iter().find(|(name, _)| name.as_str() == label));
+        let number = |value: f64| {
+            let dimension = match given_by(control) {
+                Measure::Dimension(d) => Some(d),
+                _ => None,
+            };
+            Some((label, GivenNumber { value, dimension }))
+        };
+        match (set.map(|(_, value)| value), &control.kind) {
+            (set, ControlKind::Select { options, value, .. }) => {
+                let value = scalar(set.unwrap_or(value)).to_string();
+                let is_chosen = |choice: &&Choice| {
+                    scalar(&choice.value).to_string() == value || *choice.text.value == *value
+                };
+                let text = &options.iter().find(is_chosen)?.text.value;
+                Some((label, quantity_of(text, languages)?))
+            }
+            (Some(Scalar::Number(x)), _) => number(x.value),
+            (None, ControlKind::Slider { value, .. }) => number(value.value),
             _ => None,
-        });
-        Some((label.as_str(), GivenNumber { value: x.value, dimension }))
+        }
     });
-    set.collect()
+    given.collect()
+}
+
+/// The quantity that is the whole text of an option: `0.1 rad`.
+fn quantity_of(text: &str, languages: Languages) -> Option<GivenNumber> {
+    let [quantity] = &quantities_in(text, languages)[..] else { return None };
+    Some(GivenNumber { value: quantity.number(), dimension: Some(quantity.unit.dimension?) })
 }
 
 /// The numbers of the question and the settings of its runs.
@@ -58,7 +88,7 @@ pub(super) fn given_numbers(bound: &BoundVerify<'_>, question: &Question, text: 
     let time = parse("s");
     for (run, scene) in bound.runs_with_scenes() {
         let Some(spec) = run.spec else { continue };
-        all.extend(settings_of(run, scene).into_iter().map(|(_, given)| given));
+        all.extend(settings_of(bound, run, scene).into_iter().map(|(_, given)| given));
         let times = spec.until.iter().chain(spec.press.iter().map(|(_, time)| time));
         let times = times.chain(&scene.scene.lab.stop_at);
         all.extend(times.map(|x| GivenNumber { value: x.value, dimension: time }));

@@ -31,6 +31,10 @@ pub(super) fn other(read: &ReadMeasure<'_, '_>, text: &str) -> Option<Other> {
     let tree = parse_expression(&read.text.value).tree;
     let ExprKind::Call { callee, args, .. } = &tree.kind else { return None };
     let (ExprKind::Name(function_read), [inner]) = (&callee.kind, args.as_slice()) else { return None };
+    // What happens at the lowest point has a time.
+    if print(inner) == "data.time" {
+        return None;
+    }
     let is_listed = EXTREMES.iter().any(|(function, _)| function == function_read);
     if !is_listed || function_read == function || may_be_negated(inner) {
         return None;

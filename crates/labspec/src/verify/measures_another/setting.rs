@@ -21,14 +21,14 @@ pub(super) fn other(read: &ReadMeasure<'_, '_>, text: &str) -> Option<Other> {
     }
     let runs: Vec<_> = bound.runs_with_scenes().collect();
     let (run, scene) = runs.get(read.run)?;
-    let settings = settings_of(run, scene);
+    let settings = settings_of(bound, run, scene);
     if quantities.iter().any(|q| settings.iter().any(|(_, given)| given.is(q))) {
         return None;
     }
     let mut others =
         runs.iter().enumerate().filter(|(i, (other, _))| *i != read.run && other.swept.is_none());
     let (index, label, words) = others.find_map(|(i, (other, scene))| {
-        let of_other = settings_of(other, scene);
+        let of_other = settings_of(bound, other, scene);
         let (label, stated) = of_other.iter().find_map(|(label, given)| {
             let is_set_here = settings.iter().any(|(set, _)| set == label);
             let stated =

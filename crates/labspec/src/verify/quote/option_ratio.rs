@@ -6,7 +6,7 @@ use super::number::NumberForm;
 use super::numeral::Chars;
 use super::option_text::{BoundSide, plain_text};
 use super::quantity::quantities;
-use crate::language::words::split_words;
+use crate::language::words::{split_words, starts_with};
 use crate::language::{Comparison, Languages};
 use labspec_bind::units;
 use labspec_expr::dimension::Dimension;
@@ -214,8 +214,10 @@ fn readings(x: f64, share: bool, before: &str, behind: &str) -> Vec<f64> {
     let next = split_words(behind).next().unwrap_or("");
     let is_part = share || x < 1.0;
     let is = |word: &str, words: Words| ALL.comparisons(words).any(|listed| listed == word);
-    let is_comparative =
-        is(next, |c| c.smaller) || is(next, |c| c.larger) || next.len() > 4 && next.ends_with("er");
+    let rest = behind.trim_start();
+    let begins = |words: Words| ALL.comparisons(words).any(|phrase| starts_with(rest, phrase));
+    let is_less = begins(|c| c.smaller);
+    let is_comparative = is_less || begins(|c| c.larger) || next.len() > 4 && next.ends_with("er");
     let again = split_words(behind).any(|w| w == "again");
     let is_smaller = is_factor(before) && split_words(before).any(|w| is(w, |c| c.smaller));
     let verb = |stems: Words| {
@@ -224,8 +226,8 @@ fn readings(x: f64, share: bool, before: &str, behind: &str) -> Vec<f64> {
     };
     match () {
         () if is_factor(before) && (is_smaller || verb(|c| c.decreases)) => vec![1.0 / x],
-        () if is_comparative && is(next, |c| c.smaller) && is_part => vec![1.0 - x],
-        () if is_comparative && is(next, |c| c.smaller) => vec![1.0 / x, 1.0 / (1.0 + x)],
+        () if is_comparative && is_less && is_part => vec![1.0 - x],
+        () if is_comparative && is_less => vec![1.0 / x, 1.0 / (1.0 + x)],
         () if (is_comparative || again) && is_part => vec![1.0 + x],
         () if is_comparative => vec![x, 1.0 + x],
         () if is_part && verb(|c| c.decreases) => vec![x, 1.0 - x],
@@ -271,6 +273,7 @@ mod tests {
             ("sie wird viermal so lang", 4.0),
             ("sinkt auf ein Viertel", 0.25),
             ("quatre fois plus longue", 4.0),
+            ("deux fois plus courte", 0.5),
         ] {
             assert!(is(text, x), "{text} {x}");
         }
