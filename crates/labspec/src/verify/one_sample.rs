@@ -41,7 +41,7 @@ pub(super) fn check_one_sample(
         false => {
             let values = read.iter().map(|(place, run, text)| {
                 let text = Text::derived(with_extreme(text.as_str(), extreme), text.span());
-                Some((*place, measured_in_run(bound, outcome, *run, text)?))
+                Some((*place, measured_in_run(bound, outcome, bound.runs.get(*run)?, text)?))
             });
             let Some(values) = values.collect::<Option<Vec<_>>>() else { return false };
             let mut inputs = claim.inputs(bound, outcome, Vec::new());

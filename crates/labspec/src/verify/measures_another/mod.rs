@@ -8,7 +8,7 @@ mod object;
 mod setting;
 
 use super::bound::BoundVerify;
-use super::bound_run::CompiledText;
+use super::bound_run::{BoundRun, CompiledText};
 use super::compiled_claim::CompiledClaim;
 use super::format::significant;
 use super::layout::Slot;
@@ -39,8 +39,8 @@ pub(super) fn check_words_of_measure(
 ) {
     let Some(read) = ReadMeasure::new(bound, outcome, expr) else { return };
     let lower = words.to_lowercase();
-    let all: [fn(&ReadMeasure<'_, '_>, &str) -> Option<Other>; 4] =
-        [object::other, setting::other, moment::other, extreme::other];
+    let all: [fn(&ReadMeasure<'_, '_>, &str) -> Option<Other>; 5] =
+        [object::other, setting::other, setting::untested, moment::other, extreme::other];
     let Some(other) = all.iter().find_map(|other| other(&read, &lower)) else { return };
     let message =
         format!("the text says {}, but `{}` reads {}", named(&other.words), expr.as_str(), other.read);
@@ -107,7 +107,14 @@ impl<'b, 'a> ReadMeasure<'b, 'a> {
     /// The value of the claim with another text of the measure in the same run, if it is another one.
     fn with_text(&self, text: String) -> Option<Value> {
         let text = Text::derived(text, self.text.span());
-        self.with_number(measured_in_run(self.bound, self.outcome, self.run, text)?)
+        self.with_number(measured_in_run(self.bound, self.outcome, self.bound.runs.get(self.run)?, text)?)
+    }
+
+    /// The value of the claim with another setting of the run, if it is another one.
+    fn with_setting(&self, control: &'a Text, value: Value) -> Option<Value> {
+        let run = self.bound.runs.get(self.run)?.clone();
+        let run = BoundRun { controls: vec![(control, value)], ..run };
+        self.with_number(measured_in_run(self.bound, self.outcome, &run, self.text.clone())?)
     }
 
     /// The value of the claim with another number in place of the measured one, if it is another one.
@@ -125,14 +132,13 @@ impl<'b, 'a> ReadMeasure<'b, 'a> {
     }
 }
 
-/// The value of a measure in a run that was made before, with this text. `None` if it is not finite.
-pub(super) fn measured_in_run(
-    bound: &BoundVerify<'_>,
+/// The value of a measure in a run, with this text. `None` if it is not finite.
+pub(super) fn measured_in_run<'a>(
+    bound: &BoundVerify<'a>,
     outcome: &MeasuredRuns,
-    run: usize,
+    run: &BoundRun<'a>,
     text: Text,
 ) -> Option<f64> {
-    let run = bound.runs.get(run)?;
     let scene = bound.scene_of(run)?;
     let mut globals = scene.globals.clone();
     let program = Compiler::new(&scene.names(Scope::Measure), &mut globals).expression(&text.value).program?;
@@ -173,5 +179,9 @@ mod tests {
         assert_eq!(found("How long does a swing from 1.5 rad take?", "b.T", 1.65), 0);
         assert_eq!(found("How long does a swing from 1.5 rad take, instead of 0.1 rad?", "b.T", 1.65), 0);
         assert_eq!(found("How long does a swing take?", "b.T", 1.65), 0);
+        // No run has this setting.
+        assert_eq!(found("How long does a swing from 0.5 rad take?", "b.T", 1.65), 1);
+        assert_eq!(found("How long does a swing of 0.5 rad take?", "b.T", 1.65), 0);
+        assert_eq!(found("How long does a swing from 7 rad take?", "b.T", 1.65), 0);
     }
 }

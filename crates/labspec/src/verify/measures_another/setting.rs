@@ -1,11 +1,16 @@
-//! A setting of another run that a text names in place of that of the run that a claim reads.
+//! A setting that a text names in place of that of the run that a claim reads: the one of another run, or one that no run has.
 
+use super::super::condition::numbers_in;
 use super::super::given::settings_of;
 use super::super::layout::Slot;
 use super::super::quote::quantities_in;
 use super::{Other, ReadMeasure};
+use crate::bind::{given_by, scalar};
 use crate::json::read::named;
-use crate::language::words::{ends_with, split_words};
+use crate::language::words::{ends_with, find, split_words};
+use crate::spec::ControlKind;
+use labspec_expr::Value;
+use labspec_expr::dimension::Measure;
 
 /// Words before a setting with which a result is compared: `0.2 s longer than from 0.1 rad`. They are at most this number of words before it.
 const COMPARED: [&str; 9] =
@@ -51,4 +56,62 @@ pub(super) fn other(read: &ReadMeasure<'_, '_>, text: &str) -> Option<Other> {
         with: format!("the run {}", named(other.name)),
         value: read.with_number(x)?,
     })
+}
+
+/// A setting that a student can choose and that the run does not have, if the text states it and not that of the run.
+pub(super) fn untested(read: &ReadMeasure<'_, '_>, text: &str) -> Option<Other> {
+    let (run, scene) = read.bound.runs_with_scenes().nth(read.run)?;
+    let quantities = quantities_in(text, read.languages);
+    let settings = settings_of(read.bound, run, scene);
+    if quantities.iter().any(|q| settings.iter().any(|(_, given)| given.is(q))) {
+        return None;
+    }
+    // A threshold of the measure is no setting.
+    let stop = run.stop.as_ref().map_or("", |stop| stop.text.as_str());
+    let thresholds = [numbers_in(&read.text.value), numbers_in(stop)].concat();
+    let set = &run.spec?.set;
+    let mut found = set.iter().filter_map(|(label, _)| {
+        let control = scene.scene.lab.control(label.as_str())?;
+        let (words, value) = match &control.kind {
+            ControlKind::Select { options, .. } => {
+                let mut stated =
+                    options.iter().filter(|choice| find(text, &choice.text.value.to_lowercase()).is_some());
+                let choice = stated.next().filter(|_| stated.next().is_none())?;
+                (choice.text.value.to_string(), scalar(&choice.value))
+            }
+            ControlKind::Slider { .. } => {
+                let Measure::Dimension(unit) = given_by(control) else { return None };
+                let mut stated =
+                    quantities.iter().filter(|q| q.unit.dimension.is_some_and(|d| d.agrees(&unit)));
+                let q = stated.next().filter(|_| stated.next().is_none())?;
+                let value = q.number() * q.unit.dimension?.factor / unit.factor;
+                let is_threshold = |x: &f64| {
+                    [q.number(), q.number() * unit.factor, value]
+                        .iter()
+                        .any(|y| (x - y).abs() <= 1e-3 * y.abs())
+                };
+                if thresholds.iter().any(is_threshold) {
+                    return None;
+                }
+                (q.text.clone(), Value::Number(value))
+            }
+            ControlKind::Button { .. } => return None,
+        };
+        is_stated_as_setting(read, text, &words).then_some((label, words, value))
+    });
+    let (label, words, value) = found.next()?;
+    Some(Other {
+        read: format!("the run {}, which has another value of \"{}\"", named(run.name), label.as_str()),
+        with: format!("the same run with {words}"),
+        words,
+        value: read.with_setting(label, value)?,
+    })
+}
+
+/// Whether the word before a text is one before a setting: `from 0.1 rad`.
+fn is_stated_as_setting(read: &ReadMeasure<'_, '_>, text: &str, words: &str) -> bool {
+    let start = find(text, &words.to_lowercase());
+    let before = start.and_then(|start| text.get(..start)).unwrap_or("").trim_end();
+    read.languages.ratios(|r| r.settings).any(|setting| ends_with(before, setting))
+        && !split_words(before).rev().take(COMPARED_WORDS).any(|word| COMPARED.contains(&word))
 }
