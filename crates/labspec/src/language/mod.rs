@@ -15,6 +15,9 @@ pub(crate) mod words;
 pub use comparison::Comparison;
 pub use ratios::Ratios;
 
+/// One kind of words that compare.
+pub(crate) type ComparisonWords = fn(&'static Comparison) -> &'static [&'static str];
+
 /// The words of a language.
 #[derive(Debug, PartialEq)]
 pub struct Language {

@@ -7,7 +7,7 @@ use super::outcome::MeasuredRuns;
 use super::value_of::{states_number, value_of};
 use crate::finding::Finding;
 use crate::language::words::find;
-use crate::language::{Comparison, Languages};
+use crate::language::{ComparisonWords, Languages};
 use crate::rules;
 use crate::source::Text;
 use labspec_expr::ast::{BinaryOp, Expr, ExprKind, LogicalOp, UnaryOp};
@@ -123,8 +123,7 @@ fn compared_magnitude(e: &Expr) -> Option<&Expr> {
 
 /// Whether a text states a bound: `not slower`, `at least as fast`.
 fn states_bound(text: &str, languages: Languages) -> bool {
-    let lists: [fn(&'static Comparison) -> &'static [&'static str]; 3] =
-        [|c| c.negations, |c| c.negative_articles, |c| c.limits];
+    let lists: [ComparisonWords; 3] = [|c| c.negations, |c| c.negative_articles, |c| c.limits];
     let lower = text.to_lowercase();
     let mut phrases = lists.iter().flat_map(|list| languages.comparisons(list));
     phrases.any(|phrase| find(&lower, phrase).is_some()) || lower.contains("n't") || lower.contains("n’t")

@@ -4,7 +4,7 @@
 use super::option_numbers::constant;
 use crate::finding::Finding;
 use crate::language::words::{ends_with, find, split_words, starts_with};
-use crate::language::{Comparison, Languages};
+use crate::language::{ComparisonWords, Languages};
 use crate::rules;
 use crate::source::Text;
 use labspec_expr::ast::{BinaryOp, Expr, ExprKind};
@@ -147,9 +147,6 @@ struct Change {
     part: Part,
 }
 
-/// One kind of words that compare.
-type Words = fn(&'static Comparison) -> &'static [&'static str];
-
 /// A text in lower case before and behind its first unit of percent.
 fn around_percent(lower: &str, languages: Languages) -> Option<(&str, &str)> {
     let units = ["%"].into_iter().chain(languages.comparisons(|c| c.percent));
@@ -162,7 +159,7 @@ fn around_percent(lower: &str, languages: Languages) -> Option<(&str, &str)> {
 }
 
 /// The first of some phrases close behind a number. Behind a relative pronoun, it is about something else.
-fn phrase_behind(behind: &str, words: Words, languages: Languages) -> Option<&'static str> {
+fn phrase_behind(behind: &str, words: ComparisonWords, languages: Languages) -> Option<&'static str> {
     let places = languages.comparisons(words).filter_map(|phrase| Some((find(behind, phrase)?, phrase)));
     let is_near = |(start, _): &(usize, &str)| {
         let between: Vec<&str> = split_words(behind.get(..*start).unwrap_or("")).collect();
@@ -177,9 +174,10 @@ fn loss_or_rest(quote: &str, languages: Languages) -> Option<Change> {
     let (before, behind) = around_percent(&lower, languages)?;
     let is_word = |word: &&str| word.chars().all(char::is_alphabetic);
     let near: Vec<&str> = split_words(before).filter(is_word).rev().take(ADVERBS + 1).collect();
-    let verb =
-        |words: Words| near.iter().copied().find(|word| languages.comparisons(words).any(|w| w == *word));
-    let behind = |words: Words| phrase_behind(behind, words, languages);
+    let verb = |words: ComparisonWords| {
+        near.iter().copied().find(|word| languages.comparisons(words).any(|w| w == *word))
+    };
+    let behind = |words: ComparisonWords| phrase_behind(behind, words, languages);
     let lost = || behind(|c| c.is_lost).or_else(|| verb(|c| c.loses));
     let remaining = || verb(|c| c.keeps).or_else(|| behind(|c| c.remains));
     let (word, part) =
@@ -202,7 +200,7 @@ fn asked_change(question: &str, languages: Languages) -> Option<Change> {
     let change = |word: &str, part| {
         Some(Change { message: format!("the question asks for a change (\"{word}\")"), part })
     };
-    let is = |word: &str, list: Words| languages.comparisons(list).any(|w| w == word);
+    let is = |word: &str, list: ComparisonWords| languages.comparisons(list).any(|w| w == word);
     if let Some(word) = words.iter().find(|word| is(word, |c| c.loses)) {
         return change(word, Part::Loss);
     }
@@ -218,7 +216,7 @@ fn asked_change(question: &str, languages: Languages) -> Option<Change> {
 
 /// What a text beginning with a comparative compares: `longer`.
 fn comparative(text: &str, languages: Languages) -> Option<Part> {
-    let begins = |words: Words| languages.comparisons(words).any(|word| starts_with(text, word));
+    let begins = |words: ComparisonWords| languages.comparisons(words).any(|word| starts_with(text, word));
     match () {
         () if begins(|c| c.smaller) => Some(Part::Smaller),
         () if begins(|c| c.larger) => Some(Part::Larger),
@@ -228,7 +226,7 @@ fn comparative(text: &str, languages: Languages) -> Option<Part> {
 
 /// The verb of a decrease or of an increase among some words; `None` if there are both.
 fn verb_of_change<'w>(words: &[&'w str], languages: Languages) -> Option<(&'w str, Part)> {
-    let verb = |list: Words| {
+    let verb = |list: ComparisonWords| {
         let is_listed = |word: &&str| languages.comparisons(list).any(|stem| word.starts_with(stem));
         words.iter().copied().find(is_listed)
     };

@@ -6,7 +6,7 @@ use super::outcome::MeasuredRuns;
 use super::quote::quantities_in;
 use super::units;
 use crate::language::words::words_of;
-use crate::language::{Comparison, Languages};
+use crate::language::{ComparisonWords, Languages};
 use crate::source::Text;
 use labspec_expr::ast::Expr;
 use labspec_expr::print;
@@ -49,9 +49,7 @@ pub(super) fn states_number(
 /// Whether a text says in words how large a difference is.
 fn states_size(text: &str, languages: Languages) -> bool {
     let words = words_of(text);
-    let is = |word: &String, list: fn(&'static Comparison) -> &'static [&'static str]| {
-        languages.comparisons(list).any(|listed| listed == word)
-    };
+    let is = |word: &String, list: ComparisonWords| languages.comparisons(list).any(|listed| listed == word);
     let is_setting = |i: usize| words.iter().take(i).rev().take(2).any(|word| is(word, |c| c.after));
     words.iter().enumerate().any(|(i, word)| is(word, |c| c.sizes) && !is_setting(i))
 }

@@ -2,13 +2,13 @@
 
 use super::super::option_numbers::{constant, is_below};
 use super::{Other, ReadMeasure};
-use crate::language::Comparison;
-use crate::language::words::find;
+use crate::language::ComparisonWords;
+use crate::language::words::{ends_with, find};
 use labspec_expr::ast::{BinaryOp, Expr, ExprKind, UnaryOp};
 use labspec_expr::{parse_expression, print};
 
 /// The functions of one value of a run, with the words that name it.
-const EXTREMES: [(&str, fn(&'static Comparison) -> &'static [&'static str]); 5] = [
+const EXTREMES: [(&str, ComparisonWords); 5] = [
     ("max", |c| c.highest),
     ("min", |c| c.lowest),
     ("mean", |c| c.average),
@@ -87,7 +87,7 @@ fn is_of_setting(text: &str, start: usize) -> bool {
         "bei der", "im",
     ]
     .iter()
-    .any(|words| crate::language::words::ends_with(before, words))
+    .any(|words| ends_with(before, words))
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use super::numeral::Chars;
 use super::option_text::{BoundSide, plain_text};
 use super::quantity::quantities;
 use crate::language::words::{split_words, starts_with};
-use crate::language::{Comparison, Languages};
+use crate::language::{ComparisonWords, Languages};
 use labspec_bind::units;
 use labspec_expr::dimension::Dimension;
 use std::ops::Range;
@@ -42,8 +42,6 @@ impl OptionRatio {
 
 /// The words of every language are read.
 const ALL: Languages = Languages::ALL;
-/// One kind of words that compare.
-type Words = fn(&'static Comparison) -> &'static [&'static str];
 
 /// Numbers, and parts, of mixed factors: `two and a half times`.
 const NUMBER_WORDS: [(&str, f64); 10] = [
@@ -213,14 +211,14 @@ fn factor_words(lower: &str) -> Vec<(Range<usize>, f64)> {
 fn readings(x: f64, share: bool, before: &str, behind: &str) -> Vec<f64> {
     let next = split_words(behind).next().unwrap_or("");
     let is_part = share || x < 1.0;
-    let is = |word: &str, words: Words| ALL.comparisons(words).any(|listed| listed == word);
+    let is = |word: &str, words: ComparisonWords| ALL.comparisons(words).any(|listed| listed == word);
     let rest = behind.trim_start();
-    let begins = |words: Words| ALL.comparisons(words).any(|phrase| starts_with(rest, phrase));
+    let begins = |words: ComparisonWords| ALL.comparisons(words).any(|phrase| starts_with(rest, phrase));
     let is_less = begins(|c| c.smaller);
     let is_comparative = is_less || begins(|c| c.larger) || next.len() > 4 && next.ends_with("er");
     let again = split_words(behind).any(|w| w == "again");
     let is_smaller = is_factor(before) && split_words(before).any(|w| is(w, |c| c.smaller));
-    let verb = |stems: Words| {
+    let verb = |stems: ComparisonWords| {
         let mut all = split_words(before).chain(split_words(behind));
         all.any(|word| ALL.comparisons(stems).any(|stem| word.starts_with(stem)))
     };
