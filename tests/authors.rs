@@ -119,7 +119,7 @@ fn routes_of_a_site_are_checked() {
     );
     let check = || run_in(folder.path(), &["check", "lessons"]);
     let done = check();
-    assert!(done.stdout.contains("no setting states which file it is"), "{}", done.stdout);
+    assert!(done.stdout.contains("`routes` does not state its file"), "{}", done.stdout);
     write(folder.path(), "labspec.toml", "[routes]\n\"#/lesson/{}\" = \"lessons/{}-*.md\"\n");
     let done = check();
     assert_eq!(done.stdout.matches("dead-link").count(), 1, "{}", done.stdout);

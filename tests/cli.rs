@@ -309,7 +309,7 @@ fn done_for(when: &str, folder: &Path) -> Option<Done> {
     let breaks = FALL.replace("\"stopAt\": 0.4", "\"stopAt\": 0.4, \"setup\": \"data.qvel[2] = 1e11\"");
     match when {
         "every claim is true" => check(&["clean.md"]),
-        "nobody claims anything, and every lab runs" => {
+        "there are no claims, and every lab runs" => {
             write("a.json", &lab(""));
             check(&["a.json"])
         }
@@ -327,7 +327,8 @@ fn done_for(when: &str, folder: &Path) -> Option<Done> {
             assert!(counts == [0, 0] && summary["notes"].as_u64().unwrap() > 0, "{summary}");
             Some(done)
         }
-        "the lessons allow every finding: the last line counts them, and they change nothing" => {
+        "the lessons suppress every finding: the last line counts them, and they do not change the exit code" =>
+        {
             let lint = ", \"lint\": {\"allow\": [\"duplicate-readout\"], \"why\": \"both are read aloud\"}}";
             let text = twice.strip_suffix('}').unwrap().to_string() + lint;
             write("a.json", &text);
@@ -335,7 +336,7 @@ fn done_for(when: &str, folder: &Path) -> Option<Done> {
             assert!(done.stdout.contains("(1 finding suppressed by the lessons)"), "{}", done.stdout);
             Some(done)
         }
-        "the baseline has every finding and every claim that is not true, as they are: the last line counts them" =>
+        "the baseline contains every finding and every claim that is not true, unchanged: the last line counts them" =>
         {
             write("a.md", &false_claim);
             check(&["a.md", "--baseline", "known.json", "--update-baseline"])?;
@@ -389,7 +390,7 @@ fn done_for(when: &str, folder: &Path) -> Option<Done> {
             assert!(done.stdout.contains(" ignored)"), "{}", done.stdout);
             Some(done)
         }
-        "a part was not asked for: `--no-run`" => check(&["clean.md", "--no-run"]),
+        "a part was skipped on request: `--no-run`" => check(&["clean.md", "--no-run"]),
         #[cfg(unix)]
         "a link in a folder leads out of it" => {
             std::os::unix::fs::symlink("../clean.md", folder.join("course/out.md")).unwrap();

@@ -120,7 +120,7 @@ fn a_run_named_after_an_integrator_that_is_not_compared_cannot_be_made() {
     let done = check(folder.path(), &[]);
     assert_eq!(done.code, 1, "{}", done.stdout);
     let message =
-        "the run `implicit` cannot be made: the text \"implicit\" is not an option of \"integrator\"";
+        "the run `implicit` cannot be executed: the text \"implicit\" is not an option of \"integrator\"";
     assert!(done.stdout.contains(message), "{}", done.stdout);
 }
 

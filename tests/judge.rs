@@ -170,11 +170,11 @@ fn a_changed_verdict_is_reported() {
         [
             (
                 "engine-dependent",
-                "this answer depends on the engine: verified here, but refuted with MuJoCo 3.14.0"
+                "this answer depends on the engine: verified with labspec, but refuted with MuJoCo 3.14.0"
             ),
             (
                 "engine-dependent",
-                "\"0.55 m\" depends on the engine: verified here, but refuted with MuJoCo 3.14.0"
+                "\"0.55 m\" depends on the engine: verified with labspec, but refuted with MuJoCo 3.14.0"
             ),
         ]
     );
@@ -208,13 +208,13 @@ fn a_measure_without_a_value_there_is_explained() {
     assert_eq!(code, 1);
     let why = "in `first(x > 1)`, the condition never holds there";
     assert_eq!(report["judge"]["differing"][0]["reason"], json!(why));
-    assert!(stdout.contains(&format!("but NaN there: {why}")), "{stdout}");
+    assert!(stdout.contains(&format!("but NaN in the recording: {why}")), "{stdout}");
     // A value that only we lack is explained as well.
     let (_, mut recording) = asked(folder.path());
     recording["runs"][0]["values"]["never"] = json!(0.1);
     let (_, _, stdout) = judged(folder.path(), &recording);
     let why = "in `first(contact('ball', 'floor'))`, the condition never holds here";
-    assert!(stdout.contains(&format!("but 0.1 there: {why}")), "{stdout}");
+    assert!(stdout.contains(&format!("but 0.1 in the recording: {why}")), "{stdout}");
 }
 
 /// The recording program states why a measure is NaN.
@@ -295,7 +295,8 @@ fn invalid_recordings_are_refused() {
         let done = run_in(folder.path(), &["check", "fall.md", "--judge", "judge.json"]);
         assert_eq!(done.code, 2, "{text}");
         assert!(
-            done.stderr.contains("judge.json is not a recording of a judge") && done.stderr.contains(why),
+            done.stderr.contains("judge.json is not a recording of a cross-check")
+                && done.stderr.contains(why),
             "{}",
             done.stderr
         );

@@ -57,7 +57,7 @@ fn a_quote_finer_than_the_search_could_not_be_checked() {
     ] {
         let (found, findings) = check_quote(tol, quote, expr, &json!({}));
         assert_eq!(found, verdict, "{tol} {quote} {expr}: {findings:#?}");
-        let coarse = findings.iter().find(|f| f.message.contains("which does not decide this"));
+        let coarse = findings.iter().find(|f| f.message.contains("too wide to decide the claim"));
         assert_eq!(coarse.is_some(), verdict == "failed", "{findings:#?}");
         if let Some(help) = coarse.and_then(|f| f.help.as_deref()) {
             assert!(help.contains("`\"tol\": 0."), "{help}");
@@ -93,6 +93,6 @@ fn an_answer_finer_than_the_search_fails() {
     ] {
         let (found, reason) = verdict(tol, question.clone(), claim);
         assert_eq!(found, expected, "{tol} {question}: {reason}");
-        assert!(found != Verdict::Failed || reason.contains("which does not decide this"), "{reason}");
+        assert!(found != Verdict::Failed || reason.contains("too wide to decide the claim"), "{reason}");
     }
 }

@@ -130,10 +130,8 @@ fn the_first_divergence_has_its_lab_its_run_its_trace_and_its_time() {
     // Only with a slider at its end: the unchanged lab has the same output.
     let (code, all) = after("\"min\":-20", "\"min\":-19");
     assert_eq!(code, 1);
-    let changes = json!([
-        "the run with \"gravity\" at -20 is no longer made",
-        "the run with \"gravity\" at -19 is new"
-    ]);
+    let changes =
+        json!(["the run with \"gravity\" at -20 no longer exists", "the run with \"gravity\" at -19 is new"]);
     assert_eq!((&all[1]["changes"], &all[1]["divergence"]), (&changes, &Value::Null));
 }
 

@@ -78,7 +78,7 @@ fn the_values_of_a_sweep_are_read_from_a_file() {
         (json!({"file": "other.csv"}), vec![csv], "`other.csv` cannot be used: "),
         (json!({"file": "data.csv"}), vec![csv], "it has 2 columns: add `column`"),
         (json!({"file": "data.csv", "column": "mass"}), vec![csv], "its columns are `name`, `height (m)`"),
-        (json!({"file": "data.csv", "column": "name"}), vec![csv], "row 1 has `low`"),
+        (json!({"file": "data.csv", "column": "name"}), vec![csv], "row 1 of this column has `low`"),
         (json!({"file": "/etc/passwd"}), vec![csv], "by its path from the lesson"),
         (
             column.clone(),

@@ -104,7 +104,7 @@ fn a_ball_that_no_step_sees_touch_a_plate_is_found_behind_it() {
     assert_eq!((code, kinds(&report)), (1, vec![("tunnelling".into(), "\"ball\" through \"plate\"".into())]));
     let first = &report["findings"][0];
     assert_eq!(first["setting"], json!([{"control": "Fire", "time": 0.1, "value": null}]));
-    assert!((evidence(first, "way in one step") - 0.6).abs() < 1e-9);
+    assert!((evidence(first, "distance in one step") - 0.6).abs() < 1e-9);
     // In the middle of its second step, it is at 0.9 m, and at the end of the step at 1.5 m.
     assert!((first["time"].as_f64().unwrap() - 0.102).abs() < 0.0021, "{}", first["time"]);
     // A slow ball bounces back.

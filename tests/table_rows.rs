@@ -49,9 +49,9 @@ fn a_row_that_may_describe_several_runs_is_refused() {
         (json!([0.95, 1]), "about 1", "describes several runs: 0.95, 1"),
         (json!([0.95, 1]), "≈ 1", "describes several runs: 0.95, 1"),
         (json!([0.5, 1]), "0.4 to 1.2", "describes several runs: 0.5, 1"),
-        (json!([0.5, 3]), "<2", "no run covers the row"),
-        (json!([0.5, 1]), "<2", "no run covers the row"),
-        (json!([0.5, 1]), "2", "no run covers the row"),
+        (json!([0.5, 3]), "<2", "no run of the sweep matches the row"),
+        (json!([0.5, 1]), "<2", "no run of the sweep matches the row"),
+        (json!([0.5, 1]), "2", "no run of the sweep matches the row"),
     ] {
         let (verdicts, found) = check_rows(&sweep, &[[key, "0.319"]], &column());
         assert_eq!(verdicts, ["failed"], "{key}");

@@ -83,7 +83,7 @@ fn formatting_says_what_it_could_not_read() {
     write(here, "broken.md", "# A\n\n```lab simlab\n{\"model\": }\n```\n");
     let done = run_in(here, &["fmt", "broken.md"]);
     assert_eq!(done.code, 2);
-    assert!(done.stderr.contains("1 block cannot be read"), "{}", done.stderr);
+    assert!(done.stderr.contains("1 block of broken.md cannot be read"), "{}", done.stderr);
     assert_eq!(run_in(here, &["fmt", "empty"]).code, 2);
     // The layout does not depend on the line breaks.
     let loose = CLEAN.replace("  \"model\": \"ball_drop\",\n", "        \"model\": \"ball_drop\",\n");

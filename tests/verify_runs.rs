@@ -101,7 +101,7 @@ fn an_invalid_setting_of_a_run_is_reported_with_similar_names() {
     for (keys, words) in [
         (json!({"model": {"body bal mass": 5}}), "did you mean `ball`?"),
         (json!({"model": {"geom ball fricton": 5}}), "did you mean `friction`?"),
-        (json!({"model": {"geom ball mass": -1}}), "cannot be made"),
+        (json!({"model": {"geom ball mass": -1}}), "cannot be executed"),
         (json!({"key": "lo"}), "did you mean `low`?"),
         (json!({"key": 3}), "has no keyframe 3"),
         (json!({"controller": "data.qfrc_aplied[2] = 1"}), "qfrc_applied"),
@@ -229,7 +229,7 @@ fn a_limit_is_found_by_halving() {
     for (find, words) in [
         (with("to", json!(0.02)), "at both ends of the range from 0.001 to 0.02"),
         (with("from", json!(0.03)), "at neither end of the range"),
-        (with("while", json!("z < 0.049")), "it has a smallest value, but no largest"),
+        (with("while", json!("z < 0.049")), "there is a smallest value, but no largest one"),
         (with("while", json!("Math.sin(700 * initial(model.opt.timestep)) > 0.5")), "more than once"),
         (with("largest", json!("timestp h")), "did you mean `timestep h`?"),
         (with("largest", json!("option timestp")), "did you mean `timestep`?"),
@@ -297,7 +297,7 @@ fn tables_are_compared_with_sweeps() {
         ),
         (
             json!([{"column": "touchdown (s)", "by": ["height (m)", "fall.value.map(x => x + 0.1)"], "is": "fall.touch"}]),
-            "no run covers the row \"0.5\"",
+            "no run of the sweep matches the row \"0.5\"",
         ),
         (json!([{"column": "time", "is": "slow.touch"}]), "a column needs `by`"),
         (column("slow.touch"), "slow.touch"),

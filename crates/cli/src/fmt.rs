@@ -74,14 +74,6 @@ fn one(a: &FmtArguments, path: &Path, named: bool) -> Result<Option<String>, Fai
     if !named && is_other_json(&lesson) {
         return Ok(None);
     }
-    if !lesson.broken.is_empty() {
-        return Err(format!(
-            "{} is unchanged: {} cannot be read; `labspec check {}` says why",
-            printable_path(path),
-            counted(lesson.broken.len(), "block"),
-            printable_path(path)
-        ));
-    }
     let mut models = Models::new(folder.clone());
     // The formatted text is parsed again before the file is replaced.
     let done =
@@ -91,15 +83,25 @@ fn one(a: &FmtArguments, path: &Path, named: bool) -> Result<Option<String>, Fai
                 printable_path(path)
             )
         })?;
+    let unread = (!lesson.broken.is_empty()).then(|| {
+        let (path, blocks) = (printable_path(path), counted(lesson.broken.len(), "block"));
+        format!(
+            "{blocks} of {path} cannot be read, and may be laid out wrongly; `labspec check {path}` says why"
+        )
+    });
     if done.edits.is_empty() {
-        return Ok(None);
+        return unread.map_or(Ok(None), Err);
     }
     let texts = (done.changed > 0).then(|| format!("{} of {} texts", done.changed, done.total));
     let blocks = (done.laid_out > 0).then(|| format!("the layout of {}", counted(done.laid_out, "block")));
     let checked_texts = texts.into_iter().chain(blocks).collect::<Vec<_>>().join(" and ");
-    if a.check {
-        return Ok(Some(format!("{checked_texts} would change")));
+    let verb = if a.check { "would change" } else { "changed" };
+    if !a.check {
+        write_file(path, OutputKind::Lesson(lesson.file.text()), &done.text)?;
     }
-    write_file(path, OutputKind::Lesson(lesson.file.text()), &done.text)?;
-    Ok(Some(format!("{checked_texts} changed")))
+    let message = format!("{checked_texts} {verb}");
+    match unread {
+        None => Ok(Some(message)),
+        Some(unread) => Err(format!("{}: {message}; {unread}", printable_path(path))),
+    }
 }

@@ -1,5 +1,6 @@
 //! A setting that a text names in place of that of the run that a claim reads: the one of another run, or one that no run has.
 
+use super::super::bound_run::BoundRun;
 use super::super::condition::numbers_in;
 use super::super::given::settings_of;
 use super::super::layout::Slot;
@@ -26,6 +27,9 @@ pub(super) fn other(read: &ReadMeasure<'_, '_>, text: &str) -> Option<Other> {
     }
     let runs: Vec<_> = bound.runs_with_scenes().collect();
     let (run, scene) = runs.get(read.run)?;
+    if changes_more_than_controls(run) {
+        return None;
+    }
     let settings = settings_of(bound, run, scene);
     if quantities.iter().any(|q| settings.iter().any(|(_, given)| given.is(q))) {
         return None;
@@ -58,9 +62,19 @@ pub(super) fn other(read: &ReadMeasure<'_, '_>, text: &str) -> Option<Other> {
     })
 }
 
+/// Whether a run has a model or a program of its own, which may give it the setting that a control has elsewhere.
+fn changes_more_than_controls(run: &BoundRun<'_>) -> bool {
+    run.spec.is_some_and(|spec| {
+        spec.setup.is_some() || spec.controller.is_some() || spec.key.is_some() || !spec.model.is_empty()
+    })
+}
+
 /// A setting that a student can choose and that the run does not have, if the text states it and not that of the run.
 pub(super) fn untested(read: &ReadMeasure<'_, '_>, text: &str) -> Option<Other> {
     let (run, scene) = read.bound.runs_with_scenes().nth(read.run)?;
+    if changes_more_than_controls(run) {
+        return None;
+    }
     let quantities = quantities_in(text, read.languages);
     let settings = settings_of(read.bound, run, scene);
     if quantities.iter().any(|q| settings.iter().any(|(_, given)| given.is(q))) {
