@@ -207,8 +207,12 @@ fn check_cell(
         Stands::Number(expr) => {
             let expr = part(expr, member);
             let unit = unit.clone().or_else(|| checker.rendered.unit_in_row(&text.span()));
-            let places =
-                vec![quote::QuotePlace { span: text.span(), unit, arithmetic: None, clause: String::new() }];
+            let places = vec![quote::QuotePlace {
+                span: text.span(),
+                unit,
+                arithmetic: None,
+                clause: quote::Clause::default(),
+            }];
             let claim = quote::QuoteClaim { quote: text, part: text.as_str(), expr: &expr };
             let part = quote::whole(text.as_str(), checker.bound.stage().languages());
             match QuotedValue::measure(checker, &expr, findings) {

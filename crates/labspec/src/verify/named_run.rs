@@ -73,8 +73,8 @@ pub(super) fn misnamed<'t>(
     let others: BTreeMap<String, &str> = others.map(|other| (other.to_lowercase(), other)).collect();
     let read = name.to_lowercase();
     let named_in = |place: &QuotePlace| {
-        let is_own = words_of(&place.clause).contains(&read);
-        let named = named_words(&place.clause).into_iter().find_map(|word| others.get(&word).copied());
+        let is_own = words_of(&place.clause.text).contains(&read);
+        let named = named_words(&place.clause.text).into_iter().find_map(|word| others.get(&word).copied());
         named.filter(|_| !is_own)
     };
     let other = named_in(places.first()?)?;

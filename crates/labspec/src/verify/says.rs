@@ -61,7 +61,8 @@ fn check_line(
             return vec![Quote::unclear(&quoted.quote, &reason)];
         }
         if let [place] = places.as_slice() {
-            let words = place.clause.replacen(quoted.quote.as_str(), " ", 1);
+            let clause = place.clause.text.replacen(quoted.quote.as_str(), " ", 1);
+            let words = format!("{} {clause}", place.clause.introduction);
             let nominal = &checker.outcomes.nominal;
             check_words_of_measure(checker.bound, nominal, &words, place.span.clone(), text, findings);
         }
@@ -112,5 +113,5 @@ fn check_line(
 /// The clause of a quote with one place.
 fn clause_of(places: &[quote::QuotePlace]) -> Option<&str> {
     let [place] = places else { return None };
-    Some(&place.clause)
+    Some(&place.clause.text)
 }

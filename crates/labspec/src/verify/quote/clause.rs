@@ -25,15 +25,28 @@ const WORDS: [&str; 14] = [
     " e ",
 ];
 
+/// The most words of an introduction.
+const INTRODUCTION: usize = 5;
+
+/// The clause around a place.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(in crate::verify) struct Clause {
+    /// Its text; in a row of a table, the first cell of the row.
+    pub(in crate::verify) text: String,
+    /// A few words before it, from the start of the sentence up to a comma: `From 0.1 rad, a swing takes`.
+    pub(in crate::verify) introduction: String,
+}
+
 /// The clause around a place; in a row of a table, its first cell.
-pub(super) fn clause_of(file: &str, place: &Range<usize>) -> String {
+pub(super) fn clause_of(file: &str, place: &Range<usize>) -> Clause {
     let before = file.get(..place.start).unwrap_or("");
     let behind = file.get(place.end..).unwrap_or("");
     let near = before.len().saturating_sub(ROW);
     let near = (near..=before.len()).find_map(|i| before.get(i..)).unwrap_or("");
     let line = near.rsplit('\n').next().unwrap_or(near);
     if let Some(cells) = line.trim_start().strip_prefix('|') {
-        return cells.split('|').next().unwrap_or("").trim().to_string();
+        let text = cells.split('|').next().unwrap_or("").trim().to_string();
+        return Clause { text, introduction: String::new() };
     }
     let start = (before.len().saturating_sub(REACH)..=before.len()).find(|i| before.is_char_boundary(*i));
     let before = before.get(start.unwrap_or(0)..).unwrap_or("");
@@ -44,13 +57,21 @@ pub(super) fn clause_of(file: &str, place: &Range<usize>) -> String {
     let after_last = ends(&before).max().unwrap_or(0);
     let first = starts(&behind).min().unwrap_or(behind.len());
     let quote = file.get(place.clone()).unwrap_or("").replace('\n', " ");
-    format!(
-        "{}{quote}{}",
-        before.get(after_last..).unwrap_or("").trim_start(),
-        behind.get(..first).unwrap_or("")
-    )
-    .trim_end()
-    .to_string()
+    let clause = before.get(after_last..).unwrap_or("").trim_start();
+    let text = format!("{clause}{quote}{}", behind.get(..first).unwrap_or("")).trim_end().to_string();
+    let introduction = introduction(before.get(..after_last).unwrap_or("")).unwrap_or_default();
+    Clause { text, introduction }
+}
+
+/// The few words of a sentence before a comma at the end of a text.
+fn introduction(before: &str) -> Option<String> {
+    let head = before.trim_end().strip_suffix(',')?;
+    let is_end = |c: char, next: Option<char>| c != ',' && separates(c, next);
+    let ends =
+        head.char_indices().filter(|(i, c)| is_end(*c, head.get(i + c.len_utf8()..).and_then(first_of)));
+    let start = ends.map(|(i, c)| i + c.len_utf8()).last().unwrap_or(0);
+    let words: Vec<&str> = head.get(start..)?.split_whitespace().collect();
+    (words.len() <= INTRODUCTION).then(|| words.join(" "))
 }
 
 /// Whether a character, with the one behind it, separates clauses.
@@ -86,7 +107,7 @@ mod tests {
     fn a_clause_ends_at_signs_and_conjunctions() {
         let clause = |text: &str, quote: &str| {
             let start = text.find(quote).unwrap();
-            clause_of(text, &(start..start + quote.len()))
+            clause_of(text, &(start..start + quote.len())).text
         };
         let text =
             "Look: the small swing takes 1.65 s, the wide\none 1.42 s and on earth 7 s. The rest is 3 s";
@@ -96,5 +117,20 @@ mod tests {
         assert_eq!(clause(text, "3 s"), "The rest is 3 s");
         assert_eq!(clause("| run | T |\n|---|---|\n| small | 1.42 s |\n", "1.42 s"), "small");
         assert_eq!(clause("it falls for 0.45 s on earth", "0.45 s"), "it falls for 0.45 s on earth");
+    }
+
+    #[test]
+    fn a_sentence_may_begin_with_an_introduction() {
+        let introduction = |text: &str, quote: &str| {
+            let start = text.find(quote).unwrap();
+            clause_of(text, &(start..start + quote.len())).introduction
+        };
+        assert_eq!(
+            introduction("<!-- a -->\nReleased at 0.1 rad, it takes 1.65 s.", "1.65 s"),
+            "Released at 0.1 rad"
+        );
+        assert_eq!(introduction("It falls. After 2 s, it is at 3 m.", "3 m"), "After 2 s");
+        assert_eq!(introduction("From 0.1 rad it takes 1.42 s as always, then 7 s", "7 s"), "");
+        assert_eq!(introduction("It takes 7 s", "7 s"), "");
     }
 }

@@ -41,6 +41,7 @@ mod words;
 
 pub(crate) use asked_unit::{asked_unit, differ_in_scale};
 pub(super) use check_quote::{check_quote, places_of_quote};
+pub(super) use clause::Clause;
 pub(super) use heading::operation_in_heading;
 pub(super) use markdown_cell::unit_of_head;
 pub use number::{NumberForm, Quoted, Style};

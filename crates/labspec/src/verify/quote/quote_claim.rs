@@ -1,5 +1,6 @@
 //! A checked quote: its text, its places, the value of its expression, and the result.
 
+use super::clause::Clause;
 use super::number::Quoted;
 use super::unit_text::Unit;
 use crate::source::Text;
@@ -78,5 +79,5 @@ pub(in crate::verify) struct QuotePlace {
     /// The value of constant arithmetic before it and an equality sign.
     pub(in crate::verify) arithmetic: Option<f64>,
     /// The clause around it, or the first cell of its row.
-    pub(in crate::verify) clause: String,
+    pub(in crate::verify) clause: Clause,
 }

@@ -1,7 +1,7 @@
 //! The rendered text of a lesson: prose, headings, cells, captions, printed output, and the displayed texts of labs and
 //! quizzes. Keys, code, listings, attributes and comments are not part of it.
 
-use super::clause::clause_of;
+use super::clause::{Clause, clause_of};
 use super::constant::value_before;
 use super::denial::is_denied;
 use super::markdown_cell::{is_head_of_units, unit_of_cell, unit_of_column};
@@ -77,7 +77,7 @@ impl RenderedText {
                     span: span.clone(),
                     unit: None,
                     arithmetic: None,
-                    clause: String::new(),
+                    clause: Clause::default(),
                 }));
             }
             places.sort_by_key(|p| (p.span.start, p.span.end));
