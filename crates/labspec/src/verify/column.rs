@@ -6,6 +6,7 @@ use super::claim::with_suffix;
 use super::format::significant;
 use super::grounded::grounded_value;
 use super::layout::name_of_axis;
+use super::measures_another::check_words_of_measure;
 use super::quote;
 use super::quote_checker::{Quote, QuoteChecker, QuotedValue, check_number, check_words};
 use super::units;
@@ -57,7 +58,10 @@ pub(super) fn check_column(
     let Some(list) = claim.by.as_ref().map(|(_, list)| list).or(implied.as_ref()) else {
         return cells
             .into_iter()
-            .map(|[_, text]| check_cell(checker, &text, &claim.is, &unit, "", findings))
+            .map(|[key, text]| {
+                check_row_name(checker, &key, &text, &claim.is, findings);
+                check_cell(checker, &text, &claim.is, &unit, "", findings)
+            })
             .collect();
     };
     let values = match values(checker, list, findings) {
@@ -190,6 +194,20 @@ impl SweepRows<'_> {
             .help(help)
             .related(self.list.span(), "the values of the sweep");
         Box::new(finding)
+    }
+}
+
+/// Compares the first cell of a row with what the expression of another cell reads: `cork` beside `force('iron')`.
+fn check_row_name(
+    checker: QuoteChecker<'_, '_>,
+    key: &Text,
+    text: &Text,
+    is: &Stands,
+    findings: &mut Vec<Finding>,
+) {
+    if let Stands::Number(expr) = is {
+        let nominal = &checker.outcomes.nominal;
+        check_words_of_measure(checker.bound, nominal, key.as_str(), text.span(), expr, findings);
     }
 }
 

@@ -39,8 +39,8 @@ pub(super) fn check_words_of_measure(
 ) {
     let Some(read) = ReadMeasure::new(bound, outcome, expr) else { return };
     let lower = words.to_lowercase();
-    let all: [fn(&ReadMeasure<'_, '_>, &str) -> Option<Other>; 5] =
-        [object::other, setting::other, setting::untested, moment::other, extreme::other];
+    let all: [fn(&ReadMeasure<'_, '_>, &str) -> Option<Other>; 6] =
+        [object::other, setting::named_run, setting::other, setting::untested, moment::other, extreme::other];
     let Some(other) = all.iter().find_map(|other| other(&read, &lower)) else { return };
     let message =
         format!("the text says {}, but `{}` reads {}", named(&other.words), expr.as_str(), other.read);
@@ -108,6 +108,13 @@ impl<'b, 'a> ReadMeasure<'b, 'a> {
     fn with_text(&self, text: String) -> Option<Value> {
         let text = Text::derived(text, self.text.span());
         self.with_number(measured_in_run(self.bound, self.outcome, self.bound.runs.get(self.run)?, text)?)
+    }
+
+    /// The number of the same measure in another run.
+    fn number_of_run(&self, run: usize) -> Option<f64> {
+        let slots = &self.bound.layout().slots;
+        let place = slots.iter().position(|slot| *slot == Slot::Measure(run, self.measure))?;
+        self.claim.inputs(self.bound, self.outcome, Vec::new()).at(place).filter(|x| x.is_finite())
     }
 
     /// The value of the claim with another setting of the run, if it is another one.
@@ -183,5 +190,27 @@ mod tests {
         assert_eq!(found("How long does a swing from 0.5 rad take?", "b.T", 1.65), 1);
         assert_eq!(found("How long does a swing of 0.5 rad take?", "b.T", 1.65), 0);
         assert_eq!(found("How long does a swing from 7 rad take?", "b.T", 1.65), 0);
+    }
+
+    #[test]
+    fn the_first_cell_of_a_row_names_what_the_others_are_about() {
+        let xml = "<mujoco><worldbody><body name='iron' pos='0 0 1'><freejoint/><geom size='.05'/></body>\
+            <body name='cork' pos='0 0 2'><freejoint/><geom size='.05'/></body></worldbody></mujoco>";
+        let count = |rows: [&str; 2], text: &str| {
+            let lab = serde_json::json!({"stopAt": 0.3, "xml": xml, "plots": []});
+            let cell =
+                |row: &str, is: &str| serde_json::json!({"column": "height (m)", "row": row, "is": is});
+            let table = [cell("iron", rows[0]), cell("cork", rows[1])];
+            let verify = serde_json::json!({"lab": "#1", "runs": {"r": {}},
+                "measure": {"a": "initial(data.body('iron').xpos[2])", "b": "initial(data.body('cork').xpos[2])"}, "table": table});
+            let lesson = format!("```lab simlab\n{lab}\n```\n\n<!-- labspec verify {verify} -->\n{text}");
+            let report = crate::Checker::new(|_: &str| None::<String>).check("l.md", &lesson);
+            assert!(report.findings.iter().all(|f| f.code != "quote-wrong"), "{:?}", report.findings);
+            report.findings.iter().filter(|finding| finding.code == "measures-another").count()
+        };
+        let right = "| ball | height (m) |\n|---|---|\n| iron | 1.00 |\n| cork | 2.00 |\n";
+        let wrong = "| ball | height (m) |\n|---|---|\n| iron | 2.00 |\n| cork | 1.00 |\n";
+        assert_eq!(count(["a", "b"], right), 0);
+        assert_eq!(count(["b", "a"], wrong), 2);
     }
 }

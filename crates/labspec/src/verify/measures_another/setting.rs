@@ -3,7 +3,6 @@
 use super::super::bound_run::BoundRun;
 use super::super::condition::numbers_in;
 use super::super::given::settings_of;
-use super::super::layout::Slot;
 use super::super::quote::quantities_in;
 use super::{Other, ReadMeasure};
 use crate::bind::{given_by, scalar};
@@ -17,6 +16,23 @@ use labspec_expr::dimension::Measure;
 const COMPARED: [&str; 9] =
     ["than", "instead", "against", "compared", "als", "statt", "anstatt", "gegenüber", "que"];
 const COMPARED_WORDS: usize = 3;
+
+/// The other run that is named by a text, which has no other words: the first cell of a row.
+pub(super) fn named_run(read: &ReadMeasure<'_, '_>, text: &str) -> Option<Other> {
+    let runs = &read.bound.runs;
+    let is_named = |name: &str| name.chars().count() > 1 && name.to_lowercase() == text.trim();
+    let index = runs.iter().position(|run| is_named(run.name) && run.swept.is_none())?;
+    if index == read.run {
+        return None;
+    }
+    let [other, run] = [runs.get(index)?, runs.get(read.run)?];
+    Some(Other {
+        words: other.name.to_string(),
+        read: format!("the run {}", named(run.name)),
+        with: format!("the run {}", named(other.name)),
+        value: read.with_number(read.number_of_run(index)?)?,
+    })
+}
 
 /// The setting of another run that a text states, if it does not state that of the run that is read.
 pub(super) fn other(read: &ReadMeasure<'_, '_>, text: &str) -> Option<Other> {
@@ -51,8 +67,7 @@ pub(super) fn other(read: &ReadMeasure<'_, '_>, text: &str) -> Option<Other> {
     if near.into_iter().any(|word| COMPARED.contains(&word)) || ends_with(before.trim_end(), "→") {
         return None;
     }
-    let place = bound.layout().slots.iter().position(|slot| *slot == Slot::Measure(index, read.measure))?;
-    let x = read.claim.inputs(bound, read.outcome, Vec::new()).at(place)?;
+    let x = read.number_of_run(index)?;
     let (other, _) = runs.get(index)?;
     Some(Other {
         words,
