@@ -27,7 +27,7 @@ test("what is too large is not put into a link", async () => {
 
 test("links of other versions and damaged ones say why", async () => {
   await refused("#play0=abc", /older version/);
-  await refused("#play2=abc", /newer version of the playground \(form 2; this page reads form 1\)/);
+  await refused("#play2=abc", /newer version of the playground \(format 2; this page reads format 1\)/);
   await refused("#play1=", /damaged/);
   await refused("#play1=a b", /characters/);
   await refused(`#play1=${"a".repeat(MOST_CHARACTERS + 1)}`, /longer than/);

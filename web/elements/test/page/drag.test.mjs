@@ -106,7 +106,7 @@ test("a body is chosen by arrow keys and taken by Enter; what is said names it",
   assert.match(await state(), /^view.*: Body 2$/);
   await says("Body 2 is held.");
   await page.keyboard.press("Escape");
-  await says("Body 2 is let go.");
+  await says("Body 2 is released.");
   assert.match(await state(), /^view.*: No body$/);
   // What was only looked at is not taken.
   await page.locator(".menu summary").click();

@@ -120,7 +120,7 @@ test("proved claims have a mark, are checked again on demand, and changed conten
   const { page, errors } = await open(t, "/proved.html");
   for (const id of ["a", "b", "c"]) await opened(page, `#${id}`);
   const mark = page.locator("#a .proof");
-  assert.match(await mark.locator("summary").innerText(), /Proved claims: 2/);
+  assert.match(await mark.locator("summary").innerText(), /Verified claims: 2/);
   await mark.locator("summary").click();
   assert.match(await mark.innerText(), /labspec 0\.1\.0/);
   await mark.getByRole("button", { name: "Run the claims again" }).click();

@@ -305,7 +305,7 @@ test("a link to a state of the scene holds the project as well, until it changes
 
 test("what cannot be opened says why, and the page works", async (t) => {
   for (const [address, why] of [
-    ["/#play9=abc", /newer version/], ["/#play1=AAAA", /damaged/], ["/?lab=../secret.md%231", /no place of a lab/], ["/?lab=01-what-a-step-computes.md%2399", /has no lab #99; it has #1/],
+    ["/#play9=abc", /newer version/], ["/#play1=AAAA", /damaged/], ["/?lab=../secret.md%231", /is not the address of a lab/], ["/?lab=01-what-a-step-computes.md%2399", /has no lab #99; it has #1/],
   ]) {
     const { page, errors } = await open(t, address);
     await says(page, why);
