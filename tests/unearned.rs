@@ -189,3 +189,21 @@ fn a_snapshot_without_values_is_not_as_stored() {
     run_in(here, &["snapshot", "full.json"]);
     assert!(run_in(here, &["check", "full.json"]).stdout.contains("as stored"));
 }
+
+#[test]
+fn what_a_lab_could_not_show_is_not_missing_in_the_text() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    write(here, "models/ball.xml", BALL);
+    let lesson = throw("data.qvel[0] = 0.9", "");
+    for text in [lesson.replace("\"ball\"", "\"bowl\""), lesson.replace("0.9", "NaN")] {
+        write(here, "a.md", &text);
+        let done = run_in(here, &["trace", "a.md"]);
+        assert!(done.code != 0 && done.stdout.contains("lab #1 does not run"), "{}", done.stdout);
+        let done = run_in(here, &["scaffold", "a.md"]);
+        assert!(done.stdout.contains("its lab does not run"), "{}", done.stdout);
+    }
+    write(here, "a.md", &lesson);
+    let done = run_in(here, &["trace", "a.md"]);
+    assert!(!done.stdout.contains("does not run"), "{}", done.stdout);
+}

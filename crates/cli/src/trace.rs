@@ -56,7 +56,11 @@ pub(super) fn trace(a: &TraceArguments) -> Result<CommandOutcome, Failure> {
     let traced = |n: &Traced| {
         matches!(n.origin, Origin::Claimed | Origin::From(_) | Origin::Setting(_) | Origin::Listed(_))
     };
-    Ok(if found.numbers.iter().all(traced) { CommandOutcome::Clean } else { CommandOutcome::Findings })
+    Ok(match found.numbers.iter().all(traced) {
+        false => CommandOutcome::Findings,
+        true if !found.not_run.is_empty() => CommandOutcome::Partial,
+        true => CommandOutcome::Clean,
+    })
 }
 
 /// The origin of a hit in words.
@@ -87,6 +91,12 @@ fn human(a: &TraceArguments, lesson: &Lesson, found: &Traces<'_>) -> String {
             text,
             "\nfor lab {address}, {accept}:\n\n\"verify\": {}\n",
             printable_lines(&format_verify(&block))
+        );
+    }
+    for address in &found.not_run {
+        let _ = writeln!(
+            text,
+            "\nlab {address} does not run, so no number could be traced to it; `labspec check` says why"
         );
     }
     let _ = writeln!(text, "\n{}: {}", printable_path(&a.lesson), summarize(&found.numbers));
@@ -150,11 +160,14 @@ fn share(x: f64) -> String {
 /// Where the numbers of a lesson come from: for each number with a unit the simplest measure of a run that has its digits, and what
 /// an author can take over.
 #[derive(Serialize, JsonSchema)]
+#[serde(rename_all = "camelCase")]
 pub(super) struct TraceReport<'a> {
     /// Every number with a unit that a reader sees, and the answers of numeric questions, in the order of the text.
     numbers: Vec<NumberRow<'a>>,
     /// A verify object for each lab that numbers come from.
     proposals: Vec<ProposalRow>,
+    /// The addresses of the labs that do not run: no number can be traced to them.
+    not_run: Vec<String>,
 }
 
 /// A number.
@@ -244,5 +257,6 @@ fn machine<'a>(lesson: &Lesson, found: &'a Traces<'_>) -> TraceReport<'a> {
     });
     let proposals =
         blocks(found).into_iter().map(|(address, verify)| ProposalRow { lab: address.to_string(), verify });
-    TraceReport { numbers: numbers.collect(), proposals: proposals.collect() }
+    let not_run = found.not_run.iter().map(ToString::to_string).collect();
+    TraceReport { numbers: numbers.collect(), proposals: proposals.collect(), not_run }
 }

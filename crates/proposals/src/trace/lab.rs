@@ -37,6 +37,11 @@ impl<'l> TracedLab<'l> {
         self.initial.get(inner).copied()
     }
 
+    /// Whether any measure has a value in any trial.
+    pub(super) fn has_values(&self) -> bool {
+        self.values.iter().flatten().any(|x| x.is_finite())
+    }
+
     /// Whether a value is a limit of an actuator or a joint of the model. A force with this value says nothing about a run.
     pub(crate) fn is_limit(&self, value: f64) -> bool {
         let m = &self.model;
