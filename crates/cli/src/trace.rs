@@ -58,7 +58,7 @@ pub(super) fn trace(a: &TraceArguments) -> Result<CommandOutcome, Failure> {
     };
     Ok(match found.numbers.iter().all(traced) {
         false => CommandOutcome::Findings,
-        true if !found.not_run.is_empty() => CommandOutcome::Partial,
+        true if !found.without_values.is_empty() => CommandOutcome::Partial,
         true => CommandOutcome::Clean,
     })
 }
@@ -93,10 +93,10 @@ fn human(a: &TraceArguments, lesson: &Lesson, found: &Traces<'_>) -> String {
             printable_lines(&format_verify(&block))
         );
     }
-    for address in &found.not_run {
+    for address in &found.without_values {
         let _ = writeln!(
             text,
-            "\nlab {address} does not run, so no number could be traced to it; `labspec check` says why"
+            "\nno measure of lab {address} has a value, so no number could be traced to it; `labspec check` says why"
         );
     }
     let _ = writeln!(text, "\n{}: {}", printable_path(&a.lesson), summarize(&found.numbers));
@@ -166,8 +166,8 @@ pub(super) struct TraceReport<'a> {
     numbers: Vec<NumberRow<'a>>,
     /// A verify object for each lab that numbers come from.
     proposals: Vec<ProposalRow>,
-    /// The addresses of the labs that do not run: no number can be traced to them.
-    not_run: Vec<String>,
+    /// The addresses of the labs without a value in any run, for example because they cannot run: no number can be traced to them.
+    without_values: Vec<String>,
 }
 
 /// A number.
@@ -257,6 +257,6 @@ fn machine<'a>(lesson: &Lesson, found: &'a Traces<'_>) -> TraceReport<'a> {
     });
     let proposals =
         blocks(found).into_iter().map(|(address, verify)| ProposalRow { lab: address.to_string(), verify });
-    let not_run = found.not_run.iter().map(ToString::to_string).collect();
-    TraceReport { numbers: numbers.collect(), proposals: proposals.collect(), not_run }
+    let without_values = found.without_values.iter().map(ToString::to_string).collect();
+    TraceReport { numbers: numbers.collect(), proposals: proposals.collect(), without_values }
 }

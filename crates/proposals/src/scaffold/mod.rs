@@ -45,7 +45,8 @@ pub use outcome::ScaffoldOutcome;
 use question::{QuestionText, Undecided};
 use std::ops::Range;
 
-const NOT_RUN: &str = "its lab does not run, so nothing could be measured in it; `labspec check` says why";
+const WITHOUT_VALUES: &str =
+    "no measure of its lab has a value, so nothing could be compared with it; `labspec check` says why";
 
 /// A question or a lab without a claim, and the result.
 #[derive(Clone, Debug)]
@@ -76,7 +77,7 @@ pub fn scaffold(lesson: &Lesson, models: &Models, report_progress: &mut dyn FnMu
             Some(verify) => {
                 ScaffoldOutcome::Proposed { verify, values: Vec::new(), undecided: Vec::new(), verdict: None }
             }
-            None if found.not_run.contains(&address) => ScaffoldOutcome::Open(NOT_RUN.into()),
+            None if found.without_values.contains(&address) => ScaffoldOutcome::Open(WITHOUT_VALUES.into()),
             None => ScaffoldOutcome::Open(
                 "no number of the text comes from this lab, so there is nothing to quote".into(),
             ),
@@ -135,8 +136,8 @@ fn propose(
             .is_some_and(|lab| question.span.start <= lab.span.start && lab.span.end <= question.span.end),
         LabAddress::Lab(_) => false,
     };
-    if labs.is_empty() && found.not_run.iter().any(is_of_question) {
-        return ScaffoldOutcome::Open(NOT_RUN.into());
+    if labs.is_empty() && found.without_values.iter().any(is_of_question) {
+        return ScaffoldOutcome::Open(WITHOUT_VALUES.into());
     }
     if labs.is_empty() {
         return ScaffoldOutcome::Open("there is no lab to run it in: write one under `verify`".into());

@@ -37,9 +37,10 @@ impl<'l> TracedLab<'l> {
         self.initial.get(inner).copied()
     }
 
-    /// Whether any measure has a value in any trial.
+    /// Whether any measure has a value in any trial, if there are measures.
     pub(super) fn has_values(&self) -> bool {
-        self.values.iter().flatten().any(|x| x.is_finite())
+        let mut values = self.values.iter().flatten().peekable();
+        values.peek().is_none() || values.any(|x| x.is_finite())
     }
 
     /// Whether a value is a limit of an actuator or a joint of the model. A force with this value says nothing about a run.

@@ -27,8 +27,8 @@ pub struct Traced {
 pub struct Traces<'l> {
     /// All numbers with a unit, in the order of the text.
     pub numbers: Vec<Traced>,
-    /// The labs that did not run, or that have no value in any run: no number can be traced to them.
-    pub not_run: Vec<LabAddress>,
+    /// The labs that cannot run, or that have no value in any run: no number can be traced to them.
+    pub without_values: Vec<LabAddress>,
     pub(crate) labs: Vec<TracedLab<'l>>,
     pub(crate) tables: Vec<TracedTable>,
 }
@@ -38,12 +38,12 @@ pub struct Traces<'l> {
 pub fn trace<'l>(lesson: &'l Lesson, models: &Models, report_progress: &mut dyn FnMut(&str)) -> Traces<'l> {
     let numbers = stated(lesson);
     let stage = RunCache::new(models, lesson.conventions.languages);
-    let (mut labs, mut not_run) = (Vec::new(), Vec::new());
+    let (mut labs, mut without_values) = (Vec::new(), Vec::new());
     for (address, lab) in lesson.addressed() {
         report_progress(&format!("trying lab {address}"));
         match TracedLab::measure(lesson, (address.clone(), lab), &numbers, models, &stage) {
             Some(traced) if traced.has_values() => labs.push(traced),
-            _ => not_run.push(address),
+            _ => without_values.push(address),
         }
     }
     let bindings = bindings(&numbers);
@@ -71,7 +71,7 @@ pub fn trace<'l>(lesson: &'l Lesson, models: &Models, report_progress: &mut dyn 
     let numbers =
         numbers.into_iter().zip(origins).map(|(stated, origin)| Traced { stated, origin }).collect();
     let tables = if interrupt::requested() { Vec::new() } else { tables(lesson, &labs, &stage) };
-    Traces { numbers, not_run, labs, tables }
+    Traces { numbers, without_values, labs, tables }
 }
 
 /// The numbers that listings print: each with the line of its output in the lesson.
