@@ -53,23 +53,15 @@ fn check_line(
             Err(reason) => return vec![Quote::unclear(&quoted.quote, &reason)],
         }
     }
-    let text_of = |name: &str| checker.bound.text_of_measure(name);
-    let languages = checker.bound.stage().languages();
-    if let [(text, value)] = given.as_slice() {
-        let expr = StatedExpr { text, value: value.number(), measures: &text_of, languages };
-        if let Some(reason) = check_ratio_of_change(&quoted.quote, clause_of(&places), expr, findings) {
-            return vec![Quote::unclear(&quoted.quote, &reason)];
-        }
-        if let [place] = places.as_slice() {
-            let clause = place.clause.text.replacen(quoted.quote.as_str(), " ", 1);
-            let words = format!("{} {clause}", place.clause.introduction);
-            let nominal = &checker.outcomes.nominal;
-            check_words_of_measure(checker.bound, nominal, &words, place.span.clone(), text, findings);
-        }
+    if let [(text, value)] = given.as_slice()
+        && let Some(reason) = check_single(checker, &quoted.quote, text, value, &places, findings)
+    {
+        return vec![Quote::unclear(&quoted.quote, &reason)];
     }
     let numbers = given.iter().filter(|(_, given)| !given.is_condition()).count();
     // With one expression, it belongs to the number that the quote states. With words and numbers, every number must be
     // checked.
+    let languages = checker.bound.stage().languages();
     let parts = match exprs.as_slice() {
         [_] if numbers == 1 => vec![quote::whole(quoted.quote.as_str(), languages)],
         _ => quote::parts(quoted.quote.as_str(), numbers, languages),
@@ -108,6 +100,29 @@ fn check_line(
         });
     }
     all
+}
+
+/// Compares the words of a quote with its only expression: a change in percent, and what is named beside the number. Returns the reason if
+/// the expression is not the change that is stated.
+fn check_single(
+    checker: QuoteChecker<'_, '_>,
+    quote: &Text,
+    text: &Text,
+    value: &QuotedValue,
+    places: &[quote::QuotePlace],
+    findings: &mut Vec<Finding>,
+) -> Option<String> {
+    let measures = |name: &str| checker.bound.text_of_measure(name);
+    let languages = checker.bound.stage().languages();
+    let expr = StatedExpr { text, value: value.number(), measures: &measures, languages };
+    let reason = check_ratio_of_change(quote, clause_of(places), expr, findings);
+    if let (None, [place]) = (&reason, places) {
+        let clause = place.clause.text.replacen(quote.as_str(), " ", 1);
+        let words = format!("{} {clause}", place.clause.introduction);
+        let nominal = &checker.outcomes.nominal;
+        check_words_of_measure(checker.bound, nominal, &words, place.span.clone(), text, findings);
+    }
+    reason
 }
 
 /// The clause of a quote with one place.

@@ -69,7 +69,7 @@ fn introduction(before: &str) -> Option<String> {
     let is_end = |c: char, next: Option<char>| c != ',' && separates(c, next);
     let ends =
         head.char_indices().filter(|(i, c)| is_end(*c, head.get(i + c.len_utf8()..).and_then(first_of)));
-    let start = ends.map(|(i, c)| i + c.len_utf8()).last().unwrap_or(0);
+    let start = ends.map(|(i, c)| i + c.len_utf8()).next_back().unwrap_or(0);
     let words: Vec<&str> = head.get(start..)?.split_whitespace().collect();
     (words.len() <= INTRODUCTION).then(|| words.join(" "))
 }
