@@ -64,6 +64,9 @@ fn percent(share: f64) -> String {
     format!("{:.0} %", 100.0 * share)
 }
 
+/// What counts as the work of the integrator.
+const OF_INTEGRATOR: &str = "the next state, the test for NaN, and the work of the run between steps";
+
 fn human(report: &PlanReport) -> String {
     let mut text = String::new();
     let list = |names: Vec<&str>| if names.is_empty() { "nothing".to_string() } else { names.join(", ") };
@@ -91,13 +94,7 @@ fn human(report: &PlanReport) -> String {
     }
     if let Some(step) = &report.step {
         let (share, time) = costs(Some(step.integrator));
-        row(
-            "",
-            "integrator",
-            share,
-            time,
-            "the next state, the test for NaN, and the work of the run between steps",
-        );
+        row("", "integrator", share, time, OF_INTEGRATOR);
         if let Some(when) = report.controller {
             let (share, time) = costs(step.controller);
             row("", "controller", share, time, when);
