@@ -8,7 +8,8 @@ use std::collections::BTreeMap;
 use wasm_bindgen::{JsCast, JsValue};
 
 /// The message for models in another form.
-const MODELS: &str = "`models` must be an object: names with MJCF as text, and paths with files as `Uint8Array`";
+const MODELS: &str =
+    "`models` must be an object: names with MJCF as text, and paths with files as `Uint8Array`";
 
 /// Models by name, and files by path.
 pub(crate) struct PageModels {

@@ -212,7 +212,8 @@ impl Lab {
     /// Sets the force and the torque at the centre of mass of a body, six numbers in world axes.
     #[wasm_bindgen(js_name = applyForce)]
     pub fn apply_force(&mut self, body: usize, force: &[f64]) -> Result<(), JsValue> {
-        let force = force.try_into().map_err(|_| call_error("wrong-length", "a force must have six numbers"))?;
+        let force =
+            force.try_into().map_err(|_| call_error("wrong-length", "a force must have six numbers"))?;
         self.player.apply_force(body, force).map_err(|e| thrown(&e))
     }
 
