@@ -48,6 +48,10 @@ fn a_comment_that_nothing_reads_is_reported() {
     ] {
         assert!(found(comment), "{comment}");
     }
+    // Hostile texts take no longer than their length.
+    for comment in ["<!-- labspec x ", "{/* labspec x ", "<!--", "{/*", "<!-- labspec x -->\n\n"] {
+        found(&comment.repeat(50_000));
+    }
     for comment in [
         "<!-- labspec verify {\"says\": [[\"9 m\", \"4 + 5\"]]} -->",
         "<!--labspec verify{\"says\": [[\"9 m\", \"4 + 5\"]]}-->",

@@ -1,4 +1,4 @@
-use super::Check;
+use super::{Check, MAX_IN_TEXT};
 use crate::spec::{Lesson, UnreadComment, unread_comments};
 use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
@@ -21,7 +21,8 @@ pub const COMMENT_KEYWORD: &Rule = &Rule {
 pub(super) const CHECK: Check = Check::Lesson(check_lesson);
 
 fn check_lesson(lesson: &Lesson, findings: &mut Vec<Finding>) {
-    for UnreadComment { span, keyword } in unread_comments(lesson.file.text(), &lesson.scan) {
+    let all = unread_comments(lesson.file.text(), &lesson.scan);
+    for UnreadComment { span, keyword } in all.into_iter().take(MAX_IN_TEXT) {
         let message = match &keyword {
             Some(_) => "nothing reads this comment: its keyword is unknown",
             None => "nothing reads this comment: its marks are not `<!-- labspec` and `-->`",

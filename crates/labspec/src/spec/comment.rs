@@ -105,29 +105,29 @@ pub(crate) struct UnreadComment {
 const KEYWORDS: [&str; 3] = [CLAIM, DEFINITION, "allow"];
 /// Comments of Markdown with JavaScript.
 const MDX_OPENS: &str = "{/*";
+const MDX_CLOSES: &str = "*/}";
 /// The most bytes of a comment that are read here.
 const MAX_WORDS: usize = 200;
 
-/// The comments that begin with `labspec` or a word like it, and that nothing reads.
+/// The comments that begin with `labspec` or a word like it, and that nothing reads. Every byte is searched once.
 pub(crate) fn unread_comments(text: &str, scan: &Scan) -> Vec<UnreadComment> {
     let mut all = Vec::new();
     for html in &scan.html {
-        let Some(part) = text.get(html.clone()) else { continue };
-        for (offset, _) in part.match_indices(OPENS) {
-            let start = html.start + offset;
-            let closed = part.get(offset..).and_then(|t| t.find(CLOSES)).map(|end| start + end);
-            let inside = start + OPENS.len()..closed.unwrap_or(html.end);
-            let end = closed.map_or(html.end, |end| end + CLOSES.len());
-            let Some((name, keyword, is_object)) = first_words(text.get(inside.clone()).unwrap_or("")) else {
-                continue;
-            };
-            let is_read = KEYWORDS.iter().any(|word| behind(text, inside.clone(), word).is_some());
-            if closed.is_some() && is_read || !is_ours(&name, &keyword, is_object) {
+        let mut from = html.start;
+        while let Some(start) = text.get(from..html.end).and_then(|t| t.find(OPENS)).map(|i| from + i) {
+            let begin = start + OPENS.len();
+            let closed = text.get(begin..html.end).and_then(|t| t.find(CLOSES)).map(|i| begin + i);
+            let inside = begin..closed.unwrap_or(html.end);
+            from = closed.map_or(html.end, |end| end + CLOSES.len());
+            let words = text.get(inside.clone()).and_then(first_words);
+            let Some((name, keyword, is_object)) = words else { continue };
+            let is_read = || KEYWORDS.iter().any(|word| behind(text, inside.clone(), word).is_some());
+            if !is_ours(&name, &keyword, is_object) || closed.is_some() && is_read() {
                 continue;
             }
             let has_keyword = closed.is_some() && !KEYWORDS.contains(&keyword.as_str());
             let near = || nearest(&keyword, KEYWORDS);
-            all.push(UnreadComment { span: start..end, keyword: has_keyword.then(near) });
+            all.push(UnreadComment { span: start..from, keyword: has_keyword.then(near) });
         }
     }
     all.extend(mdx_comments(text, scan));
@@ -135,17 +135,24 @@ pub(crate) fn unread_comments(text: &str, scan: &Scan) -> Vec<UnreadComment> {
 }
 
 /// The comments `{/* labspec … */}` outside of blocks.
-fn mdx_comments<'t>(text: &'t str, scan: &'t Scan) -> impl Iterator<Item = UnreadComment> + 't {
-    text.match_indices(MDX_OPENS).filter_map(|(start, _)| {
-        let behind = start + MDX_OPENS.len();
-        let (name, keyword, is_object) = first_words(text.get(behind..)?)?;
+fn mdx_comments(text: &str, scan: &Scan) -> Vec<UnreadComment> {
+    let mut all = Vec::new();
+    let mut from = 0;
+    while let Some(start) = text.get(from..).and_then(|t| t.find(MDX_OPENS)).map(|i| from + i) {
+        let begin = start + MDX_OPENS.len();
+        from = begin;
+        let Some((name, keyword, is_object)) = text.get(begin..).and_then(first_words) else { continue };
         let last = scan.blocks.partition_point(|block| block.span.start <= start).checked_sub(1);
         let is_in_block =
             last.and_then(|i| scan.blocks.get(i)).is_some_and(|block| block.span.contains(&start));
-        let end = text.get(behind..)?.find("*/}").map_or(behind, |end| behind + end + 3);
-        (!is_in_block && is_ours(&name, &keyword, is_object))
-            .then_some(UnreadComment { span: start..end, keyword: None })
-    })
+        if is_in_block || !is_ours(&name, &keyword, is_object) {
+            continue;
+        }
+        let closed = text.get(begin..).and_then(|t| t.find(MDX_CLOSES)).map(|i| begin + i + MDX_CLOSES.len());
+        from = closed.unwrap_or(text.len());
+        all.push(UnreadComment { span: start..from, keyword: None });
+    }
+    all
 }
 
 /// The first two words of a comment in lower case, and whether an object follows.

@@ -19,7 +19,7 @@ pub(super) fn other(read: &ReadMeasure<'_, '_>, text: &str) -> Option<Other> {
         return None;
     }
     let mut pairs = literals.iter().flat_map(|name| {
-        let named = siblings(model, name).into_iter().filter(|other| is_named(other));
+        let named = siblings(model, name, &is_named).into_iter();
         named.filter(|other| !literals.contains(other)).map(move |other| (*name, other))
     });
     let (Some((name, other)), None) = (pairs.next(), pairs.next()) else { return None };
@@ -56,8 +56,8 @@ fn words_of_name(name: &str) -> Option<String> {
     (is_word && words.chars().count() >= SHORTEST).then_some(words)
 }
 
-/// The names of objects that have the same kinds as the objects with this name, and the same types.
-fn siblings<'m>(model: &'m Model, name: &str) -> Vec<&'m str> {
+/// The names, as far as they are wanted, of objects that have the same kinds as the objects with this name, and the same types.
+fn siblings<'m>(model: &'m Model, name: &str, is_wanted: &dyn Fn(&str) -> bool) -> Vec<&'m str> {
     let kinds: Vec<(Obj, usize)> =
         KINDS.iter().filter_map(|kind| Some((*kind, model.names.id(*kind, name)?))).collect();
     let Some((first, id)) = kinds.first().copied() else { return Vec::new() };
@@ -70,7 +70,8 @@ fn siblings<'m>(model: &'m Model, name: &str) -> Vec<&'m str> {
                 .is_some_and(|other| type_of(model, *kind, *id) == type_of(model, *kind, other))
         })
     };
-    others.map(|(_, other)| other.as_str()).filter(|other| is_sibling(other)).collect()
+    let others = others.map(|(_, other)| other.as_str()).filter(|other| is_wanted(other));
+    others.filter(|other| is_sibling(other)).collect()
 }
 
 /// What objects that can be taken for each other have in common.
