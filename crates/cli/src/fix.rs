@@ -89,26 +89,38 @@ pub(super) fn fix(request: &CheckRequest<'_>, mode: FixMode) -> Result<AppliedFi
         }
         if mode.diff {
             print(&difference(&path, &old, &new))?;
-        } else {
-            let users = lessons_that_use(&path, &files);
-            let before = errors_of(&users, request)?;
-            write_file(&path, OutputKind::Lesson(&old), &new)?;
-            let after = errors_of(&users, request);
-            // A check that was interrupted has not seen everything.
-            if interrupted() && !users.is_empty() || after.is_err() || after.is_ok_and(|after| after > before)
-            {
-                write_file(&path, OutputKind::Lesson(&new), &old)?;
-                print_error(&format!(
-                    "{} is unchanged: with its fixes, a lesson that uses its labs would have more errors, or could not be checked\n",
-                    printable_path(&path)
-                ));
-                continue;
-            }
+        } else if !write_fixed(&path, &old, &new, &files, request)? {
+            continue;
         }
         repaired.fixes += count;
         repaired.files += 1;
     }
     Ok(repaired)
+}
+
+/// Writes a fixed lesson; false if it is taken back, because a lesson that uses its labs would have more errors.
+fn write_fixed(
+    path: &Path,
+    old: &str,
+    new: &str,
+    files: &[ListedFile],
+    request: &CheckRequest<'_>,
+) -> Result<bool, Failure> {
+    let users = lessons_that_use(path, files);
+    let before = errors_of(&users, request)?;
+    write_file(path, OutputKind::Lesson(old), new)?;
+    let after = errors_of(&users, request);
+    // A check that was interrupted has not seen everything.
+    let is_unchecked = interrupted() && !users.is_empty();
+    if !is_unchecked && after.is_ok_and(|after| after <= before) {
+        return Ok(true);
+    }
+    write_file(path, OutputKind::Lesson(new), old)?;
+    print_error(&format!(
+        "{} is unchanged: with its fixes, a lesson that uses its labs would have more errors, or could not be checked\n",
+        printable_path(path)
+    ));
+    Ok(false)
 }
 
 /// The lessons whose text names a lab of another lesson: `deg.md#1`.
