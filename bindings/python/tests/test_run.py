@@ -122,7 +122,7 @@ def test_wrong_arguments_are_refused():
     lab = labspec.Lab(LAB)
     assert "qpso" in lab.run({}, {"x": "final(data.qpso[2])"}).error
     assert lab.run({}, until=-1).error and lab.run({}, until=1e9).error
-    with pytest.raises(ValueError, match="from 1"):
+    with pytest.raises(ValueError, match="at least 1 step"):
         lab.run({}, every=0)
     with pytest.raises(TypeError):
         lab.run({"gravity": []})

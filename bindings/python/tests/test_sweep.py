@@ -135,12 +135,12 @@ def test_another_sweep_does_not_continue_in_the_folder(tmp_path):
     needs("pyarrow")
     lab = labspec.Lab(LAB)
     labspec.sweep(lab, GRID, MEASURES, out=tmp_path)
-    with pytest.raises(ValueError, match="another sweep"):
+    with pytest.raises(ValueError, match="a different sweep"):
         labspec.sweep(lab, GRID, {"x": "final(data.qpos[0])"}, out=tmp_path)
-    with pytest.raises(ValueError, match="another sweep"):
+    with pytest.raises(ValueError, match="a different sweep"):
         labspec.sweep(labspec.Lab({**LAB, "stopAt": 1}), GRID, MEASURES, out=tmp_path)
     (tmp_path / "part-000000.parquet").write_bytes(b"junk")
-    with pytest.raises(ValueError, match="no part of this sweep"):
+    with pytest.raises(ValueError, match="not part of this sweep"):
         labspec.sweep(lab, GRID, MEASURES, out=tmp_path)
 
 
