@@ -42,7 +42,16 @@ async function fieldTypes() {
 }
 
 const conditions = ["browser", "inline", "node", "workerd"];
-const modules = { "": "player", checker: "checker" };
+const PLAYER = [...conditions, "slim"];
+/** The modules of the package: the folder in `dist`, its entries, and those of them that `require` takes, too. */
+const modules = {
+  player: {
+    folder: "", names: [...PLAYER, ...conditions.map((c) => `mujoco-${c}`), "worker-browser", "worker-node", "worker-host", "worker-host-node"],
+    required: ["node", "slim", "mujoco-node", "worker-node"],
+  },
+  compiled: { folder: "compiled", names: PLAYER, required: ["node", "slim"] },
+  checker: { folder: "checker", names: conditions.map((c) => `checker-${c}`), required: ["checker-node"] },
+};
 /** What the entries share, in one file: see `core.ts`. */
 const CORE = ["core", ...readFileSync(at("src/core.ts"), "utf8").matchAll(/export \* from "\.\/([\w-]+)\.js"/g)].map((found) => typeof found === "string" ? found : found[1]);
 /** What entries share that do not need the module. */
@@ -64,24 +73,22 @@ const alone = {
 };
 
 /** One module with its entries. */
-async function bundle(folder, module) {
+async function bundle(module, { folder, names, required }) {
   const out = at("dist", folder);
   mkdirSync(out, { recursive: true });
   const wasm = at("generated", module, "labspec_bg.wasm");
   copyFileSync(wasm, join(out, "labspec.wasm"));
   const packed = at("generated", module, "labspec_bg.packed");
   // The checker is twice as large, and rarely part of a script.
-  const text = module === "player" ? await compressed(packed) : gzipSync(readFileSync(packed), { level: 9 });
+  const text = module === "checker" ? gzipSync(readFileSync(packed), { level: 9 }) : await compressed(packed);
   const texts = { module: text, unpacker: readFileSync(at("generated/unpack.wasm")) };
   writeFileSync(join(out, "inline-module.js"), Object.entries(texts).map(([name, bytes]) => `export const ${name} = "${bytes.toString("base64")}";\n`).join(""));
   const glue = { name: "glue", setup: (b) => b.onResolve({ filter: /^#glue$/ }, () => ({ path: at("generated", module, "labspec.js") })) };
   const outside = ["./labspec.wasm", "./inline-module.js", "node:*"];
   const common = { bundle: true, outdir: out, target: "es2022", legalComments: "none", external: outside, logLevel: "warning" };
-  const names = folder === "" ? [...conditions, "slim", ...conditions.map((c) => `mujoco-${c}`), "worker-browser", "worker-node", "worker-host", "worker-host-node"] : conditions.map((c) => `checker-${c}`);
   await build({ ...common, entryPoints: [at("src/core.ts")], format: "esm", plugins: [glue, alone] });
   await build({ ...common, entryPoints: ALONE.map((name) => at("src", `${name}.ts`)), format: "esm" });
   await build({ ...common, entryPoints: names.map((name) => at("src/entry", `${name}.ts`)), format: "esm", plugins: [glue, shared(names)] });
-  const required = folder === "" ? ["node", "slim", "mujoco-node", "worker-node"] : ["checker-node"];
   await build({
     ...common, entryPoints: required.map((name) => at("src/entry", `${name}.ts`)), format: "cjs", outExtension: { ".js": ".cjs" }, plugins: [glue],
     define: { "import.meta.url": "importMetaUrl" },
@@ -106,7 +113,7 @@ function requiredTypes() {
 
 rmSync(at("dist"), { recursive: true, force: true });
 await fieldTypes();
-for (const [folder, module] of Object.entries(modules)) await bundle(folder, module);
+for (const [module, entries] of Object.entries(modules)) await bundle(module, entries);
 execFileSync(process.execPath, [at("../node_modules/typescript/bin/tsc"), "-p", at("tsconfig.json")], { stdio: "inherit" });
 // Nothing that is exported names the module's own types.
 for (const file of ["glue.d.ts", "core.d.ts", "worker-host.d.ts", "entry/browser.d.ts", "entry/inline-module.d.ts"]) rmSync(at("dist/types", file), { force: true });

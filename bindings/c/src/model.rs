@@ -6,7 +6,7 @@ use crate::handles::{self, Handle, NewHandle};
 use crate::models::{GivenModels, ModelSource};
 use crate::status::{Failure, Outcome, Status, call};
 use labspec_core::reflect::Object;
-use labspec_core::{self as core, Data, Full, Model, Obj};
+use labspec_core::{self as core, Model, Obj};
 use std::ffi::c_char;
 use std::path::Path;
 use std::sync::{Arc, RwLock};
@@ -142,9 +142,7 @@ fn write_field(model: &mut Model, field: core::reflect::FieldId, start: usize, v
     if !fields::is_writable(field) {
         return Err(core::Error::NotWritable(field).into());
     }
-    // The engine writes any field through a model and data; these are not used.
-    let mut unused: Data<Full> = Data::new(&Model::from_xml("<mujoco/>")?);
-    let mut view = core::view_mut(model, &mut unused, field)?;
+    let mut view = model.field_mut(field)?;
     fields::store(field, &mut view, start, values)
 }
 

@@ -3,7 +3,7 @@
 use crate::error::{error, refused, refused_by_engine};
 use crate::fields::{copied, is_live, is_writable, live, named, not_writable, numbers};
 use labspec_core::reflect::{self, FieldId, Object, View, ViewMut};
-use labspec_core::{self as core, Data as EngineData, Full, Obj};
+use labspec_core::{self as core, Obj};
 use labspec_finding::nearest;
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
@@ -15,14 +15,11 @@ use std::sync::{Arc, PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard};
 pub(crate) struct SharedModel {
     pub(crate) model: core::Model,
     exposed: Vec<(FieldId, Vec<u64>)>,
-    /// Unused data, because writing a model requires data.
-    nobody: EngineData<Full>,
 }
 
 impl SharedModel {
-    fn new(model: core::Model) -> PyResult<SharedModel> {
-        let nothing = core::Model::from_xml("<mujoco/>").map_err(|e| refused_by_engine(&e))?;
-        Ok(SharedModel { model, exposed: Vec::new(), nobody: EngineData::new(&nothing) })
+    fn new(model: core::Model) -> SharedModel {
+        SharedModel { model, exposed: Vec::new() }
     }
 
     /// Whether Python wrote into a view since the last synchronization.
@@ -41,7 +38,7 @@ impl SharedModel {
                 continue;
             }
             *held = snapshot(view);
-            core::view_mut(&mut self.model, &mut self.nobody, *field)?;
+            self.model.field_mut(*field)?;
         }
         Ok(())
     }
@@ -65,7 +62,7 @@ pub(crate) struct Model {
 
 impl Model {
     pub(crate) fn from_compiled(model: core::Model) -> PyResult<Model> {
-        Ok(Model { shared: Arc::new(RwLock::new(SharedModel::new(model)?)) })
+        Ok(Model { shared: Arc::new(RwLock::new(SharedModel::new(model))) })
     }
 
     pub(crate) fn read(&self) -> RwLockReadGuard<'_, SharedModel> {
@@ -140,8 +137,8 @@ impl Model {
         }
         let mut shared = self.write();
         shared.sync().map_err(|e| refused_by_engine(&e))?;
-        let SharedModel { model, nobody, exposed } = &mut *shared;
-        let mut view = core::view_mut(model, nobody, field).map_err(|e| refused_by_engine(&e))?;
+        let SharedModel { model, exposed } = &mut *shared;
+        let mut view = model.field_mut(field).map_err(|e| refused_by_engine(&e))?;
         store(field, &mut view, &values)?;
         if let Some((_, held)) = exposed.iter_mut().find(|(f, _)| *f == field)
             && let Some(view) = model.field(field)

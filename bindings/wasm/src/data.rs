@@ -2,7 +2,7 @@
 
 use crate::error::{call_error, refused};
 use crate::fields::{by_index, copied, is_live, place};
-use crate::model::{RawModel, kind, nothing, past_the_end, store};
+use crate::model::{RawModel, kind, past_the_end, store};
 use labspec::Functions;
 use labspec::bind::World;
 use labspec::run::Budget;
@@ -95,7 +95,8 @@ impl RawData {
     pub fn new(model: &RawModel) -> Result<RawData, JsValue> {
         let data = Data::planned(&model.model, Plan::new(&model.model, &AccessSet::ANY));
         let world = World {
-            model: nothing(),
+            // Each call brings its model.
+            model: Model::default(),
             data,
             key: None,
             functions: Functions::new(),

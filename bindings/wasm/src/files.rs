@@ -8,8 +8,7 @@ use std::collections::BTreeMap;
 use wasm_bindgen::{JsCast, JsValue};
 
 /// The message for models in another form.
-const MODELS: &str =
-    "`models` must be an object: names with MJCF as text, and paths with files as `Uint8Array`";
+const MODELS: &str = "`models` must be an object: names with MJCF as text or with compiled models as `Uint8Array`, and paths with files as `Uint8Array`";
 
 /// Models by name, and files by path.
 pub(crate) struct PageModels {
@@ -18,7 +17,8 @@ pub(crate) struct PageModels {
 }
 
 impl PageModels {
-    /// A string is a model, available under its name and as the file `NAME.xml`. Bytes are a file.
+    /// A string is a model, available under its name and as the file `NAME.xml`. Bytes are a file, or, under a name without an
+    /// extension, a compiled model.
     pub(crate) fn new(given: &JsValue) -> Result<PageModels, JsValue> {
         let wrong = || call_error("wrong-type", MODELS);
         let object: &Object = given.dyn_ref().ok_or_else(wrong)?;
@@ -47,7 +47,12 @@ impl Models for PageModels {
         self.models.get(name).cloned()
     }
 
+    fn compiled(&self, name: &str) -> Option<Vec<u8>> {
+        self.files.get(name).filter(|_| !name.contains('.')).cloned()
+    }
+
     fn names(&self) -> Option<Vec<String>> {
+        // Only models that the checker can read, too.
         Some(self.models.keys().cloned().collect())
     }
 

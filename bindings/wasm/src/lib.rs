@@ -35,7 +35,7 @@ use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
 const TYPES: &str = r#"
-/** Models by their names: MJCF; and files that they name, by path. */
+/** Models by their names: MJCF, or the bytes of a compiled model; and files that they name, by path. */
 export type Models = Record<string, string | Uint8Array>;
 
 /** Lessons whose labs others name, and snapshots, by their paths. */

@@ -4,8 +4,7 @@ use crate::error::{call_error, refused, thrown};
 use crate::fields::{by_index, copied, is_live, place};
 use crate::files::PageModels;
 use labspec_core::reflect::{self, FieldId, Object, View, ViewMut};
-use labspec_core::{AccessSet, Data, Model, Obj, Plan, Planned};
-use std::sync::OnceLock;
+use labspec_core::{Model, Obj};
 use wasm_bindgen::prelude::*;
 
 /// A compiled model, and the fields that the page can view in memory.
@@ -14,22 +13,11 @@ pub struct RawModel {
     pub(crate) model: Model,
     /// Fields that the page may write in memory, with their last known contents.
     exposed: Vec<(FieldId, Vec<u64>)>,
-    /// Unused data, because writing a model requires data.
-    nobody: Data<Planned>,
-}
-
-/// An empty model.
-pub(crate) fn nothing() -> Model {
-    static NOTHING: OnceLock<Model> = OnceLock::new();
-    #[allow(clippy::unwrap_used)] // an empty model compiles
-    NOTHING.get_or_init(|| Model::from_xml("<mujoco/>").unwrap()).clone()
 }
 
 impl RawModel {
     pub(crate) fn from_model(model: Model) -> RawModel {
-        let nothing = nothing();
-        let nobody = Data::planned(&nothing, Plan::new(&nothing, &AccessSet::ANY));
-        RawModel { model, exposed: Vec::new(), nobody }
+        RawModel { model, exposed: Vec::new() }
     }
 
     /// Synchronizes the model with the values that a page wrote into its views.
@@ -46,7 +34,7 @@ impl RawModel {
             let (field, held) = (*field, snapshot(view));
             self.exposed[index].1 = held;
             // The field is written through the table to update its stamp.
-            write(&mut self.model, &mut self.nobody, field, |_| ());
+            write(&mut self.model, field, |_| ());
         }
     }
 }
@@ -107,7 +95,7 @@ impl RawModel {
             return Err(refused(&labspec_core::Error::NotWritable(field)));
         }
         let mut fits = true;
-        write(&mut self.model, &mut self.nobody, field, |view| fits = store(view, from, values));
+        write(&mut self.model, field, |view| fits = store(view, from, values));
         if fits { Ok(()) } else { Err(past_the_end(field)) }
     }
 
@@ -128,9 +116,8 @@ fn mistakes(xml: &str, e: &labspec_core::Error) -> JsValue {
 }
 
 /// Writes a field of the model through the table.
-fn write(model: &mut Model, nobody: &mut Data<Planned>, field: FieldId, what: impl FnOnce(&mut ViewMut<'_>)) {
-    // The engine requires data to write a model.
-    if let Ok(mut view) = labspec_core::view_mut(model, nobody, field) {
+fn write(model: &mut Model, field: FieldId, what: impl FnOnce(&mut ViewMut<'_>)) {
+    if let Ok(mut view) = model.field_mut(field) {
         what(&mut view);
     }
 }

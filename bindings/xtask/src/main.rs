@@ -1,7 +1,8 @@
 //! Builds the published artifacts.
 //!
 //! `cargo run --manifest-path bindings/xtask/Cargo.toml -- [FOLDER]` builds the modules of `bindings/wasm`, each with its
-//! JavaScript and its TypeScript types: the player, and the checker, which contains the player. They are written to
+//! JavaScript and its TypeScript types: the player, the player without the MJCF compiler and convex shapes, and the checker, which
+//! contains the player. They are written to
 //! `web/labspec/generated`, where the npm package reads them, and the checker to FOLDER (`bindings/wasm/pkg`), in `node/` and
 //! `web/`. If the package `binaryen` is installed in `web/`, its `wasm-opt` reduces the size of the modules. If rustup is
 //! installed, the compilation target is added if necessary. `LABSPEC_PROFILE=quick` builds slow and large modules in a minute,
@@ -71,8 +72,9 @@ struct Module {
     others: &'static [&'static str],
 }
 
-const MODULES: [Module; 2] = [
-    Module { name: "player", features: &["--no-default-features"], others: &[] },
+const MODULES: [Module; 3] = [
+    Module { name: "player", features: &["--no-default-features", "--features", "mjcf"], others: &[] },
+    Module { name: "compiled", features: &["--no-default-features"], others: &[] },
     Module { name: "checker", features: &[], others: &["node", "web"] },
 ];
 
@@ -104,7 +106,7 @@ fn build(folder: Option<PathBuf>) -> Result<PathBuf, String> {
     let _ = Command::new("rustup").args(["target", "add", TARGET]).output();
     let only = std::env::var("LABSPEC_MODULE").ok();
     if let Some(unknown) = only.as_deref().filter(|only| MODULES.iter().all(|module| module.name != *only)) {
-        return Err(format!("LABSPEC_MODULE is player or checker, not {unknown}"));
+        return Err(format!("LABSPEC_MODULE is player, compiled or checker, not {unknown}"));
     }
     let chosen = MODULES.iter().filter(|module| only.as_deref().is_none_or(|only| only == module.name));
     // Most of the time of a module is one thread of the linker: the modules are built at the same time.

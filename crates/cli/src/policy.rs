@@ -298,7 +298,11 @@ pub(super) fn conventions_of(path: &Path) -> Result<Conventions, Failure> {
 impl Globs {
     fn new(folder: &Path, patterns: &[String]) -> Result<Globs, String> {
         let mut all = GitignoreBuilder::new(folder);
-        for pattern in patterns {
+        for (n, pattern) in patterns.iter().enumerate() {
+            // As in `.gitignore`: `#` begins a comment, and `!` takes back what an earlier pattern matches.
+            if pattern.trim().is_empty() || pattern.starts_with('#') || (n == 0 && pattern.starts_with('!')) {
+                return Err(format!("the pattern `{}` matches nothing; write one such as \"drafts/**\"", printable(pattern)));
+            }
             all.add_line(None, pattern).map_err(|e| format!("`{}`: {e}", printable(pattern)))?;
         }
         all.build().map(Globs).map_err(|e| e.to_string())
@@ -466,6 +470,9 @@ mod tests {
         assert!(error("ignore = 3").contains("a list of texts"));
         assert!(error("\nignore = ").contains("line 2"));
         assert!(error("[[paths]]\nignore = []").contains("needs `match`"));
+        for pattern in ["", " ", "#1.md", "!drafts"] {
+            assert!(error(&format!("[[paths]]\nmatch = [{pattern:?}]\n")).contains("matches nothing"), "{pattern}");
+        }
         assert!(error("paths = 1").contains("[[paths]]"));
         assert!(error("paths = [1]").contains("[[paths]]"));
         assert!(error("widgets = \"playground\"").contains("a list of texts"));

@@ -19,7 +19,8 @@
 //! call panics: an inconsistent argument causes an [`Error`], whose message names the next step. A [`Plan`] leaves out the stages
 //! that a scene and its readers do not need, without changing a number.
 //!
-//! With `default-features = false`, models cannot be read from MJCF, but only from the bytes of [`Model::to_bytes`].
+//! With `default-features = false`, models are read from the bytes of [`Model::to_bytes`] only: every MJCF text is refused by a
+//! finding.
 #![forbid(unsafe_code)]
 // Some items are used by the MJCF reader only.
 #![cfg_attr(not(feature = "mjcf"), allow(dead_code, unused_imports))]
@@ -27,6 +28,9 @@
 
 mod api;
 #[cfg(feature = "mjcf")]
+mod mjcf;
+#[cfg(not(feature = "mjcf"))]
+#[path = "no_mjcf.rs"]
 mod mjcf;
 mod setup;
 
@@ -44,7 +48,6 @@ pub use api::model::{
 #[cfg(feature = "nalgebra")]
 pub use api::nalgebra;
 pub use api::planning::Plan;
-#[cfg(feature = "mjcf")]
 pub use api::reading as xml;
 pub use api::view::{Actuator, Body, Geom, Joint, ObjectKey, Rows3, Sensor, Site, Tendon};
 pub use collision::PairFilterReason;

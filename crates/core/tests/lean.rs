@@ -265,6 +265,17 @@ mod lean {
         assert!(same >= 20 && refused >= 10, "{same} {refused}");
     }
 
+    /// The functions for MJCF are there, and say what is missing.
+    #[cfg(not(feature = "mjcf"))]
+    #[test]
+    fn every_text_is_refused_with_the_next_step() {
+        let Err(Error::Model(findings)) = Model::from_xml(" <mujoco/>") else { panic!("it is compiled") };
+        assert_eq!(findings.len(), 1);
+        assert_eq!((findings[0].code, findings[0].span.clone()), ("mjcf-not-supported", 1..2));
+        assert!(findings[0].help.as_ref().unwrap().contains("store its bytes"));
+        assert!(core::xml::check_xml("", &core::xml::NoFiles, None).model.is_none());
+    }
+
     #[test]
     fn models_that_may_ever_need_a_search_are_refused() {
         for (name, _, [a, b]) in REFUSED {

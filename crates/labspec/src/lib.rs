@@ -34,6 +34,7 @@ pub mod models;
 mod pairwise;
 pub mod player;
 mod printable;
+#[cfg(feature = "mjcf")]
 pub mod reference;
 pub mod repair;
 pub mod report;

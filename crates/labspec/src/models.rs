@@ -11,6 +11,13 @@ pub trait Models: Send + Sync {
     /// The MJCF of a model; `None` when there is no model of this name.
     fn text(&self, name: &str) -> Option<String>;
 
+    /// The bytes of a compiled model ([`labspec_core::Model::to_bytes`]), which a [`Player`](crate::Player) uses instead of the
+    /// text; `None` when there is only a text, or no model of this name. A [`Checker`](crate::Checker) needs the text.
+    fn compiled(&self, name: &str) -> Option<Vec<u8>> {
+        let _ = name;
+        None
+    }
+
     /// The names of all models, if they are known: then a misspelt name gets a suggestion.
     fn names(&self) -> Option<Vec<String>> {
         None

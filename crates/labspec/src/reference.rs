@@ -2,10 +2,11 @@
 //!
 //! `cargo run -p labspec-cli -- reference docs/reference` writes both, with the schemas of reports; tests fail when they are stale.
 
-use crate::bind::{functions, named_field as by_name};
+use crate::bind::functions;
 use crate::rules;
 use crate::spec::format;
 use labspec_core::reflect::{self, Kind, Object, Stage};
+use labspec_bind::named_field as by_name;
 use labspec_core::xml::{self, Status};
 use labspec_finding::{Layer, Rule, Severity};
 use std::fmt::Write;

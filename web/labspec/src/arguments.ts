@@ -63,12 +63,12 @@ export function callback(x: unknown, what: string): void {
 
 /** Models by name and files by path. */
 export function models(x: unknown): Record<string, string | Uint8Array> {
-  const expected = "an object: names with MJCF as text, and paths with files as Uint8Array";
+  const expected = "an object: names with MJCF as text or with compiled models as Uint8Array, and paths with files as Uint8Array";
   if (typeof x !== "object" || x === null || Array.isArray(x)) throw wrong("`models`", expected, x);
   const out: Record<string, string | Uint8Array> = {};
   for (const [name, content] of Object.entries(x as Record<string, unknown>)) {
     if (typeof content !== "string" && !(content instanceof Uint8Array)) {
-      throw wrong(`the model "${name}"`, "MJCF as a string, or a file as a Uint8Array", content);
+      throw wrong(`the model "${name}"`, "MJCF as a string, or a compiled model or a file as a Uint8Array", content);
     }
     out[name] = content;
   }

@@ -1,6 +1,6 @@
 import type { Finding } from "./error.js";
 
-/** Models by name (MJCF), and files that they name, by path. */
+/** Models by name, as MJCF or as the bytes of `Model.toBytes`, and files that they name, by path. */
 export type Models = Readonly<Record<string, string | Uint8Array>>;
 
 /** A value of a control. */

@@ -50,7 +50,10 @@ export class Lab {
   #model: LabModel | undefined;
   #weight: ArrayBuffer | undefined = weight(LAB);
 
-  /** Opens a lab from its JSON (text, or the object itself). `models` are the models that it names. */
+  /**
+   * Opens a lab from its JSON (text, or the object itself). `models` are the models that it names: MJCF, or the bytes of
+   * `Model.toBytes`. The module of `labspec/compiled` takes bytes only.
+   */
   constructor(json: string | object, models: Models = {}) {
     if (json instanceof Opened) {
       [this.#json, this.#models, this.#texts, this.#raw] = [json.text, json.models, json.texts, json.raw];

@@ -444,11 +444,7 @@ pub fn view_mut<'a, S: Scope>(
     if field.info().object == Object::Data {
         return d.write(field);
     }
-    if !reflect::is_writable(field) {
-        return Err(Error::NotWritable(field));
-    }
-    m.touch(field);
-    Ok(reflect::view_model_mut(m.engine(), field))
+    m.field_mut(field)
 }
 
 /// Saved simulations: state, inputs and all results, including contacts and warnings.

@@ -1,9 +1,10 @@
 //! Errors of calls, and their reasons.
 
+use crate::mjcf::Finding;
 #[cfg(feature = "mjcf")]
-use crate::mjcf::{Finding, MjcfFileError};
+use crate::mjcf::MjcfFileError;
 use crate::model::Obj;
-use crate::model::reflect::FieldId;
+use crate::model::reflect::{FieldId, Kind, is_writable};
 use crate::model::stage::Stage;
 use crate::model::state::StateError;
 use crate::step::inverse::InverseError;
@@ -15,7 +16,6 @@ use std::fmt;
 #[non_exhaustive]
 pub enum Error {
     /// The text of a model has errors: all that were found, in the order of the text.
-    #[cfg(feature = "mjcf")]
     Model(Vec<Finding>),
     /// A file cannot be read, or its model has errors.
     #[cfg(feature = "mjcf")]
@@ -86,10 +86,11 @@ pub enum Error {
 
 impl Error {
     /// The findings in the text of a model. Empty for any other error.
-    #[cfg(feature = "mjcf")]
     pub fn diagnostics(&self) -> &[Finding] {
         match self {
-            Error::Model(list) | Error::File(MjcfFileError::Model { diagnostics: list, .. }) => list,
+            Error::Model(list) => list,
+            #[cfg(feature = "mjcf")]
+            Error::File(MjcfFileError::Model { diagnostics, .. }) => diagnostics,
             _ => &[],
         }
     }
@@ -98,7 +99,6 @@ impl Error {
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            #[cfg(feature = "mjcf")]
             Error::Model(list) => {
                 for (i, d) in list.iter().enumerate() {
                     let end = if i + 1 < list.len() { "\n" } else { "" };
@@ -130,7 +130,8 @@ impl fmt::Display for Error {
                 "`{}` cannot be written: {}",
                 field.info().name,
                 match field.info().kind {
-                    crate::model::reflect::Kind::Structure => "it is fixed when the model is compiled",
+                    _ if is_writable(*field) => "it is a field of the data, not of the model",
+                    Kind::Structure => "it is fixed when the model is compiled",
                     _ => "the engine computes it",
                 }
             ),

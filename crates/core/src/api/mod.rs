@@ -6,16 +6,19 @@ pub(crate) mod call;
 mod contents;
 pub(crate) mod data;
 pub(crate) mod error;
+pub(crate) mod files;
 #[cfg(test)]
 #[allow(clippy::unwrap_used)] // a panic is the report of a failed test
 mod idle_actuators;
 pub(crate) mod model;
 #[cfg(feature = "nalgebra")]
 pub mod nalgebra;
+pub(crate) mod patch;
 #[cfg(test)]
 #[allow(clippy::unwrap_used)] // a panic is the report of a failed test
 mod planar_chains;
 pub(crate) mod planning;
+pub mod reading;
 #[cfg(test)]
 #[allow(clippy::unwrap_used, clippy::panic)] // a panic is the report of a failed test
 mod recorded_sensors;
@@ -26,6 +29,3 @@ mod scaled_scenes;
 #[allow(clippy::unwrap_used, clippy::panic)] // a panic is the report of a failed test
 mod survival;
 pub(crate) mod view;
-
-#[cfg(feature = "mjcf")]
-pub mod reading;

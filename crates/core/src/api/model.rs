@@ -46,6 +46,13 @@ impl std::fmt::Debug for Model {
     }
 }
 
+/// An empty model: no bodies, not even the world, and the default options. It stands where a model is needed before there is one.
+impl Default for Model {
+    fn default() -> Model {
+        Model::new(inner::Model::default())
+    }
+}
+
 impl PartialEq for Model {
     fn eq(&self, other: &Model) -> bool {
         self.inner == other.inner
@@ -74,7 +81,6 @@ impl Model {
     /// # Errors
     ///
     /// All errors that were found: [`Error::diagnostics`].
-    #[cfg(feature = "mjcf")]
     pub fn from_xml(xml: &str) -> Result<Model, Error> {
         crate::mjcf::compile(xml).map(Model::new).map_err(Error::Model)
     }
@@ -85,8 +91,7 @@ impl Model {
     /// # Errors
     ///
     /// All errors that were found: [`Error::diagnostics`].
-    #[cfg(feature = "mjcf")]
-    pub fn from_xml_with(xml: &str, files: &dyn crate::mjcf::Files) -> Result<Model, Error> {
+    pub fn from_xml_with(xml: &str, files: &dyn crate::api::files::Files) -> Result<Model, Error> {
         crate::mjcf::compile_with(xml, files, None).map(Model::new).map_err(Error::Model)
     }
 
@@ -134,6 +139,19 @@ impl Model {
     /// The numbers of a field of the model, or `None` for a field of the data.
     pub fn field(&self, field: FieldId) -> Option<reflect::View<'_>> {
         (field.info().object != Object::Data).then(|| reflect::view_model(&self.inner, field))
+    }
+
+    /// The numbers of a field of the model, to write. Data that were planned for other parameters get a new plan at their next
+    /// use.
+    ///
+    /// # Errors
+    /// [`Error::NotWritable`], also for a field of the data.
+    pub fn field_mut(&mut self, field: FieldId) -> Result<reflect::ViewMut<'_>, Error> {
+        if field.info().object == Object::Data || !reflect::is_writable(field) {
+            return Err(Error::NotWritable(field));
+        }
+        self.touch(field);
+        Ok(reflect::view_model_mut(&mut self.inner, field))
     }
 
     pub(super) fn engine(&mut self) -> &mut inner::Model {
@@ -417,4 +435,46 @@ pub(super) fn find(names: &Names, kind: Obj, name: &str) -> Result<usize, Error>
         let nearest = nearest(name, names.of_kind(kind).iter().map(String::as_str)).map(String::from);
         Error::NoName { kind, name: name.to_string(), nearest }
     })
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)] // a panic is the report of a failed test
+mod tests {
+    use super::*;
+    use crate::api::call::{inverse, reset_data, step};
+    use crate::api::data::Data;
+    use crate::model::reflect::field;
+
+    #[test]
+    fn a_field_is_written_without_data() {
+        let text = "<mujoco><worldbody><body><joint axis='0 1 0'/><geom size='.1' pos='.5 0 0'/></body></worldbody></mujoco>";
+        let mut m = Model::from_xml(text).unwrap();
+        let mut d = Data::new(&m);
+        step(&m, &mut d).unwrap();
+        assert!(d.qacc[0] > 1.0);
+        let mut gravity = m.field_mut(field(Object::Option, "gravity").unwrap()).unwrap();
+        assert!(gravity.set(2, 0.0));
+        // The data take the new value at their next use.
+        reset_data(&m, &mut d).unwrap();
+        step(&m, &mut d).unwrap();
+        assert_eq!(d.qacc[0], 0.0);
+        for (object, name) in
+            [(Object::Data, "qpos"), (Object::Model, "nq"), (Object::Model, "body_parentid")]
+        {
+            let refused = m.field_mut(field(object, name).unwrap()).map(|_| ()).unwrap_err();
+            assert!(matches!(refused, Error::NotWritable(_)), "{name}: {refused}");
+        }
+    }
+
+    /// It stands where a model is needed before there is one; no call panics.
+    #[test]
+    fn an_empty_model_steps() {
+        let m = Model::default();
+        let mut d = Data::new(&m);
+        step(&m, &mut d).unwrap();
+        inverse(&m, &mut d).unwrap();
+        assert!((d.time - m.opt.timestep).abs() < 1e-15);
+        assert_eq!((m.nbody, d.ncon, d.qpos.len()), (0, 0, 0));
+        assert!(Model::from_bytes(&m.to_bytes()).is_ok_and(|again| again == m));
+    }
 }

@@ -3,13 +3,17 @@
 use super::error::Error;
 use super::model::Model;
 use crate::mjcf;
+#[cfg(feature = "mjcf")]
 use std::path::Path;
 
+pub use super::files::{FileProblem, Files, Folder, MAX_FILE, MAX_TEXT, NoFiles};
+pub use super::patch::{Patch, Refusal};
+#[cfg(feature = "mjcf")]
 pub use crate::mjcf::{
-    Attr, AttributeType, Element, FileProblem, Files, Finding, Folder, Keyword, MAX_ALL_ATTRIBUTES,
-    MAX_ATTRIBUTES, MAX_DEPTH, MAX_DOFS, MAX_ELEMENTS, MAX_FILE, MAX_GEOMS, MAX_MASS, MAX_TEXT,
-    MjcfFileError, NoFiles, Patch, Refusal, SchemaRow, Severity, Status, rules, schema_root, schema_rows,
+    Attr, AttributeType, Element, Keyword, MAX_ALL_ATTRIBUTES, MAX_ATTRIBUTES, MAX_DEPTH, MAX_DOFS,
+    MAX_ELEMENTS, MAX_GEOMS, MAX_MASS, MjcfFileError, SchemaRow, Status, schema_root, schema_rows,
 };
+pub use crate::mjcf::{Finding, Severity, rules};
 
 /// The result of reading the text of a model.
 #[derive(Clone, Debug)]
@@ -56,6 +60,7 @@ pub fn compile_with(xml: &str, files: &dyn Files, path: Option<&str>) -> Result<
 }
 
 /// Compiles a model from a file. See [`Model::from_file`].
+#[cfg(feature = "mjcf")]
 pub fn compile_file(path: &Path) -> Result<Model, Error> {
     Model::from_file(path)
 }

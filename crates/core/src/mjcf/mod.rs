@@ -42,17 +42,14 @@ mod unsimulated;
 use std::io::Read;
 use std::path::Path;
 
+use crate::api::files::{Files, Folder, MAX_TEXT, NoFiles};
+use crate::api::patch::{Patch, Refusal};
 use crate::model::Model;
 use text::diagnostic::Diagnostics;
 
 pub use labspec_finding::{Finding, Severity};
 pub use schema::{Attr, AttributeType, Element, Keyword, SchemaRow, Status, schema_root, schema_rows};
 pub use text::diagnostic::MjcfFileError;
-pub use text::files::{FileProblem, Files, Folder, MAX_FILE, NoFiles};
-pub use text::patch::{Patch, Refusal};
-
-/// Size limit of a text, bytes.
-pub const MAX_TEXT: usize = 16 << 20;
 /// Limit for the nesting depth of elements.
 pub const MAX_DEPTH: usize = 1000;
 /// Limit for the number of elements.

@@ -18,8 +18,8 @@ use super::spec::{
 };
 use super::tendon::{fill_tendon, read_tendon};
 use super::text::diagnostic::Diagnostics;
-use super::text::files::Files;
-use super::text::patch::{Patch, Refusal};
+use crate::api::files::Files;
+use crate::api::patch::{Patch, Refusal};
 use super::text::{load, tree};
 use super::{expand, fill, ids, layout, names, settings};
 use crate::mjcf::gather::listed;

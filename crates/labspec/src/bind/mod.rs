@@ -18,7 +18,6 @@ pub use dimension::given_by;
 pub use dimension::{Dimensions, dimension_of, dimensions};
 pub use labels::of_label;
 pub(crate) use labels::{behind_heading, contradicts, in_degrees, of_heading, unit_beside};
-pub(crate) use labspec_bind::named_field;
 pub use labspec_bind::{DisplayedLabels, Functions, ModelNames, NUMBERS, Playback, Scope, World, functions};
 pub(crate) use model_file::compile_to_play;
 pub(crate) use programs::writes_kind;

@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// The result of compiling a model file.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Compiled {
     /// `None` when there are errors.
     pub model: Option<Model>,
@@ -40,24 +40,31 @@ pub fn compile_file(
     compile_source(file, &files, path.file_name().and_then(|n| n.to_str()), hash, xml::check_xml)
 }
 
+/// The help for bytes that are not a model of this engine.
+const STORE_AGAIN: &str = "compile the model with the same version of labspec that loads it";
+
 /// Compiles the model of a lab for playing: with errors, but without warnings.
 pub(crate) fn compile_to_play(lab: &Lab, folder: &ModelFolder) -> Compiled {
     let refused = |rule, field: &Text, message: String, help: String| Compiled {
-        model: None,
         findings: vec![Finding::error(rule, field.span(), message).help(help)],
-        files: Vec::new(),
-        parts: Vec::new(),
+        ..Compiled::default()
     };
     let name = match lab.scene() {
-        None => return Compiled { model: None, findings: Vec::new(), files: Vec::new(), parts: Vec::new() },
+        None => return Compiled::default(),
         Some(ModelSource::Xml(text)) => {
             let checked = compile_errors(&text.value, &NoFiles, None);
             let place = |d: &Finding| from_mjcf(d, text.span_of(d.span.clone()));
             let findings = checked.findings.iter().map(place).collect();
-            return Compiled { model: checked.model, findings, files: Vec::new(), parts: Vec::new() };
+            return Compiled { model: checked.model, findings, ..Compiled::default() };
         }
         Some(ModelSource::Model(name)) => name,
     };
+    if let Some(bytes) = folder.given().and_then(|given| given.compiled(&name.value)) {
+        return match Model::from_bytes(&bytes) {
+            Ok(model) => Compiled { model: Some(model), ..Compiled::default() },
+            Err(e) => refused(rules::MODEL_UNREADABLE, name, format!("the model `{}` cannot be loaded: {e}", name.value), STORE_AGAIN.into()),
+        };
+    }
     if let Some(given) = folder.given()
         && let Some(text) = given.text(&name.value)
     {

@@ -32,7 +32,7 @@ test("node: ESM and CommonJS", () => {
   write(folder, { "app.mjs": program(), "app.cjs": program().replace(/import (.*) from (.*);/, "const $1 = require($2);").replace("export ", "") });
   assert.equal(run("node", ["app.mjs"]), expected);
   assert.equal(run("node", ["app.cjs"]), expected);
-  for (const entry of ["checker", "mujoco", "worker", "slim"]) {
+  for (const entry of ["checker", "compiled", "compiled/slim", "mujoco", "worker", "slim"]) {
     assert.match(run("node", ["-e", `console.log(Object.keys(require("labspec/${entry}")).join())`]), /\w/);
     assert.match(run("node", ["--input-type=module", "-e", `console.log(Object.keys(await import("labspec/${entry}")).join())`]), /\w/);
   }
@@ -126,6 +126,25 @@ test("a page without a bundler: an import map", async () => {
   const other = await inChromium("inline.html");
   assert.equal(other.result, expected);
   assert.deepEqual(other.requests.filter((r) => r.endsWith(".wasm")), []);
+});
+
+test("a page with a compiled model fetches the smaller module and no other", async () => {
+  const compiled = run("node", ["--input-type=module", "-e", `${program().split("\n").filter((line) => /^(import|const drop)/.test(line)).join("\n").replace("{ Lab }", "{ Model }")}
+    console.log(Buffer.from(Model.fromXML(drop).toBytes()).toString("base64"));`]);
+  const bytes = `const drop = Uint8Array.from(atob(${JSON.stringify(compiled)}), (c) => c.charCodeAt(0));`;
+  const dist = "/node_modules/labspec/dist/compiled";
+  const map = JSON.stringify({ imports: { "labspec/compiled": `${dist}/browser.js` } });
+  write(folder, {
+    "src/compiled.js": program("labspec/compiled").replace(/^const drop = .*$/m, bytes),
+    "compiled.html": page("/src/compiled.js", `<script type="importmap">${map}</script>`),
+  });
+  const { result, requests, problems } = await inChromium("compiled.html");
+  assert.deepEqual([result, problems], [expected, []]);
+  assert.deepEqual(requests.filter((r) => r.startsWith("/node_modules")).sort(), ["browser.js", "core.js", "error.js", "labspec.wasm"].map((file) => `${dist}/${file}`));
+  const { build } = await import("esbuild");
+  await build({ absWorkingDir: folder, entryPoints: ["src/compiled.js"], bundle: true, format: "esm", outfile: join(folder, "dist-compiled/app.js"), logLevel: "error" });
+  write(folder, { "dist-compiled/index.html": page("app.js") });
+  assert.equal((await inChromium("dist-compiled/index.html")).result, expected);
 });
 
 const firefox = firefoxPath();
@@ -244,7 +263,7 @@ test("a sandboxed frame of another origin", async () => {
 test("publint and the types", () => {
   const lint = spawnSync("npx", ["publint", "--strict", tarball], { cwd: web, encoding: "utf8" });
   assert.equal(lint.status, 0, lint.stdout + lint.stderr);
-  const args = ["attw", tarball, "--profile", "node16", "--exclude-entrypoints", "labspec.wasm", "checker.wasm", "--no-emoji", "--format", "ascii"];
+  const args = ["attw", tarball, "--profile", "node16", "--exclude-entrypoints", "labspec.wasm", "compiled.wasm", "checker.wasm", "--no-emoji", "--format", "ascii"];
   const types = spawnSync("npx", args, { cwd: web, encoding: "utf8" });
   assert.equal(types.status, 0, types.stdout + types.stderr);
 });

@@ -16,7 +16,7 @@ use crate::mjcf::names::{NameTable, WORLD};
 use crate::mjcf::rules::{self, Rule};
 use crate::mjcf::spec::{BodySpec, PairSpec};
 use crate::mjcf::text::diagnostic::{Diagnostics, shorten_name};
-use crate::mjcf::text::files::{Files, MAX_FILE};
+use crate::api::files::{Files, MAX_FILE};
 use crate::mjcf::text::load;
 use crate::mjcf::text::tree::{ElementNode, ElementTree, name};
 

@@ -3,7 +3,7 @@
 use crate::mjcf::classes::Props;
 use crate::mjcf::context::Context;
 use crate::mjcf::gather::listed;
-use crate::mjcf::text::files;
+use crate::api::files;
 use crate::mjcf::text::tree::{ElementNode, name};
 use crate::model::texture::Texture;
 

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::mjcf::compile_with;
-use crate::mjcf::text::files::Files;
+use crate::api::files::Files;
 use crate::model::Model;
 use crate::step::step;
 use crate::step::workspace::Workspace;

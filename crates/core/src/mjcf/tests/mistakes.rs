@@ -1,7 +1,8 @@
 //! Invalid models and the diagnostics that an author reads.
 
 use super::world;
-use crate::mjcf::{FileProblem, Files, NoFiles, check_xml, compile_with};
+use crate::api::files::{FileProblem, Files, NoFiles};
+use crate::mjcf::{check_xml, compile_with};
 
 /// Each finding with its line of the text, and its span underlined.
 fn format_findings(xml: &str) -> String {

@@ -10,8 +10,9 @@ use std::ops::Range;
 use std::rc::Rc;
 
 use super::diagnostic::{Diagnostics, shorten_name};
-use super::files::{FileProblem, Files, folder_of, normalize_path};
-use super::patch::{self, Patch, Refusal};
+use crate::api::files::{FileProblem, Files, folder_of, normalize_path};
+use super::patch;
+use crate::api::patch::{Patch, Refusal};
 use super::scan;
 use super::tree::{self, ElementTree};
 use super::xml::{self, XmlElement};

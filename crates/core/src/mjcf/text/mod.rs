@@ -1,7 +1,6 @@
-//! Conversion of bytes to a tree of elements: files, limits, XML, values of attributes, and the diagnostics.
+//! Conversion of bytes to a tree of elements: limits, XML, values of attributes, and the diagnostics.
 
 pub(crate) mod diagnostic;
-pub(crate) mod files;
 pub(crate) mod load;
 pub(crate) mod patch;
 pub(crate) mod scan;

@@ -6,6 +6,7 @@
 
 use super::diagnostic::nearest;
 use super::xml::{XmlAttribute, XmlElement};
+use crate::api::patch::{Patch, Refusal};
 use crate::mjcf::gather::listed;
 use crate::mjcf::schema::{self, AttributeType, INCLUDE, ROOT};
 use labspec_finding::order;
@@ -18,32 +19,6 @@ const SETTINGS: [(&str, &str); 5] = [
     ("mujoco", "statistic"),
     ("option", "flag"),
 ];
-
-/// A patch: an attribute of an element, and its new text; or an element, and the element that replaces it.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Patch {
-    /// The kind of the element, its name if it has one, and the attribute: `geom ball friction`, `option timestep`,
-    /// `default steel geom friction` for an attribute in a default class. Without the attribute for an element: `motor drive`.
-    pub path: String,
-    /// The new text of the attribute, or the XML of the new element: `<position joint="arm" kp="50"/>`.
-    pub value: String,
-}
-
-impl Patch {
-    /// Whether it replaces an element.
-    pub(super) fn is_element(&self) -> bool {
-        self.value.trim_start().starts_with('<')
-    }
-}
-
-/// The reason why a patch is refused.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Refusal {
-    /// The problem, as a sentence.
-    pub message: String,
-    /// A suggestion what to write instead.
-    pub help: String,
-}
 
 /// An element with its entry in the schema.
 #[derive(Clone, Copy)]
@@ -361,7 +336,7 @@ fn suggestion<'n>(word: &str, names: impl Iterator<Item = &'n str>, none: &str) 
 
 #[cfg(test)]
 mod tests {
-    use super::Patch;
+    use crate::api::patch::Patch;
     use crate::mjcf::{NoFiles, check_patched};
     use crate::model::Model;
 

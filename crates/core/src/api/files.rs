@@ -7,6 +7,8 @@ use std::collections::BTreeMap;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
+/// Size limit of the text of a model, bytes.
+pub const MAX_TEXT: usize = 16 << 20;
 /// Size limit of a file that a model refers to, bytes.
 pub const MAX_FILE: usize = 64 << 20;
 
