@@ -5,9 +5,9 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
+use crate::model_results::{Exception, ModelResults};
 use crate::needs::needs;
 use crate::recorded::compare_with_recording;
-use crate::standing::{Exception, ModelResults};
 use crate::support::{models, read_json, workspace};
 use crate::zoo::ORDER;
 use std::process::Command;
@@ -72,16 +72,16 @@ fn every_shared_model_is_as_recorded() {
     let fresh = run_recorder("conformance.py", &["--states", "8", "--out", "."]);
     let stored = workspace().join("tests/golden/conformance");
     let recordings = fresh.as_ref().map_or(stored.as_path(), |folder| folder.path());
-    let mut standing = ModelResults::default();
+    let mut results = ModelResults::default();
     for (kind, folder) in FOLDERS {
         for name in models(&shared.join(folder)) {
             let recording = read_json(&recordings.join(kind).join(format!("{name}.json")));
             let model = shared.join(folder).join(format!("{name}.xml"));
-            standing.add(format!("{kind}/{name}"), compare_with_recording(&model, &recording));
+            results.add(format!("{kind}/{name}"), compare_with_recording(&model, &recording));
         }
     }
-    assert!(standing.refused() <= MOST_REFUSED, "{} models are refused", standing.refused());
-    standing.check(if fresh.is_some() { None } else { Some("conformance") }, EXCEPTIONS);
+    assert!(results.refused() <= MOST_REFUSED, "{} models are refused", results.refused());
+    results.check(if fresh.is_some() { None } else { Some("conformance") }, EXCEPTIONS);
 }
 
 /// Random models that combine all features. `LABSPEC_SEED` selects others.
@@ -92,10 +92,10 @@ fn random_models_are_as_the_library_has_them() {
     let arguments = [".", "--count", &RANDOM.to_string(), "--seed", &seed];
     let folder =
         run_recorder("menagerie.py", &arguments).unwrap_or_else(|| panic!("LABSPEC_ORACLE names no Python"));
-    let mut standing = ModelResults::default();
+    let mut results = ModelResults::default();
     for name in models(folder.path()) {
         let at = |ending: &str| folder.path().join(format!("{name}.{ending}"));
-        standing.add(format!("random {name}"), compare_with_recording(&at("xml"), &read_json(&at("json"))));
+        results.add(format!("random {name}"), compare_with_recording(&at("xml"), &read_json(&at("json"))));
     }
-    standing.check(None, &[]);
+    results.check(None, &[]);
 }

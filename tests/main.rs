@@ -61,6 +61,7 @@ mod lsp_findings;
 #[cfg(feature = "lsp")]
 mod lsp_requests;
 mod mistakes;
+mod model_results;
 mod mutants;
 mod needs;
 mod no_run;
@@ -100,7 +101,6 @@ mod sleep;
 mod snapshots_of_labs;
 mod sources;
 mod stability;
-mod standing;
 mod steady;
 mod stop_time;
 mod structure;

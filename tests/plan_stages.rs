@@ -28,24 +28,32 @@ fn a_clock_measures_the_stages_of_the_plan() {
         for _ in 0..10 {
             core::step(&m, &mut d).unwrap();
         }
-        let (mut work, laps) = (0, core::laps(&mut d));
+        let (mut work, stage_times) = (0, core::stage_times(&mut d));
         for decision in d.plan().decisions() {
-            let lap = laps.stage_time(decision.stage);
-            work += lap.work;
+            let stage_time = stage_times.stage_time(decision.stage);
+            work += stage_time.work;
             // Sensor stages are not evaluated in passes within a step.
             let displayed = matches!(decision.stage, Stage::Sensors | Stage::SubtreeVel | Stage::RnePost);
             let least = if displayed { 10 } else { 10 * passes };
             assert_eq!(
                 decision.keep,
-                lap.runs >= least,
+                stage_time.runs >= least,
                 "{name}: {:?} ran {} times",
                 decision.stage,
-                lap.runs
+                stage_time.runs
             );
-            assert!(lap.time >= lap.runs && (decision.keep || lap.runs == 0), "{name}: {:?}", decision.stage);
+            assert!(
+                stage_time.time >= stage_time.runs && (decision.keep || stage_time.runs == 0),
+                "{name}: {:?}",
+                decision.stage
+            );
         }
-        assert!(laps.nothing.runs >= 20 * passes && laps.between.runs + 1 == laps.nothing.runs, "{laps:?}");
-        assert_eq!(core::laps(&mut d), core::StageTimes::default());
+        assert!(
+            stage_times.nothing.runs >= 20 * passes
+                && stage_times.between.runs + 1 == stage_times.nothing.runs,
+            "{stage_times:?}"
+        );
+        assert_eq!(core::stage_times(&mut d), core::StageTimes::default());
         assert_eq!(core::cost(&d) - before, work + 10 * passes * core::cost_of_pass(&d), "{name}");
     }
 }

@@ -141,10 +141,10 @@ fn events_and_ends_are_those_of_equations_by_hand() {
 }
 
 /// The growth of small differences by `stability`, with timesteps small enough to have no visible error, compared with the
-/// derivative of the flow from the equations (`tests/golden/parting.py`): the same directions grow by the same factors.
+/// derivative of the flow from the equations (`tests/golden/divergence.py`): the same directions grow by the same factors.
 #[test]
 fn small_differences_grow_as_by_equations_by_hand() {
-    let golden = read_json(&workspace().join("tests/golden/parting.json"));
+    let golden = read_json(&workspace().join("tests/golden/divergence.json"));
     let lesson = load_lesson(
         SourceFile::new("kinds.md", std::fs::read_to_string(kinds()).unwrap()),
         &ModelFolder::unknown(),
@@ -160,7 +160,7 @@ fn small_differences_grow_as_by_equations_by_hand() {
         let programs = Programs::compile(&lab, &model, &mut Vec::new());
         let options = stability::StressOptions { until: Some(until), ..Default::default() };
         let report = stability::probe(&lab, &model, &programs, &options, &mut |_| ()).unwrap();
-        let found = report.sensitivity.parting.unwrap();
+        let found = report.sensitivity.divergence.unwrap();
         let off = |x: f64, key: &str| (x / truth[key].as_f64().unwrap() - 1.0).abs();
         println!("{title}: {:e} {:e}", off(found.low, "low"), off(found.high, "high"));
         (off(found.low, "low").max(off(found.high, "high")) > 1e-3 || report.sensitivity.exponent.is_some())

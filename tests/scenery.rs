@@ -5,8 +5,8 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
+use crate::model_results::ModelResults;
 use crate::recorded::{compare_with_recording, list, named, objects, start, worst};
-use crate::standing::ModelResults;
 use crate::support::{models, numbers, recording, workspace};
 use labspec_core::reflect::Object;
 use labspec_core::{self as core, Data, Model, xml};
@@ -24,15 +24,15 @@ fn folder() -> PathBuf {
 
 #[test]
 fn every_model_of_the_lessons_is_as_recorded() {
-    let mut standing = ModelResults::default();
+    let mut results = ModelResults::default();
     let all = models(&folder());
     assert!(all.len() >= 16, "{all:?}");
     for name in all {
         let model = folder().join(format!("{name}.xml"));
-        standing.add(name.clone(), compare_with_recording(&model, &recording(&format!("course/{name}"))));
+        results.add(name.clone(), compare_with_recording(&model, &recording(&format!("course/{name}"))));
     }
-    assert_eq!(standing.refused(), 0);
-    standing.check(None, &[]);
+    assert_eq!(results.refused(), 0);
+    results.check(None, &[]);
 }
 
 /// Writes the settings of a run: fields of the model, of its options or of the data.

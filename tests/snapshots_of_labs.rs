@@ -306,7 +306,7 @@ fn a_file_that_is_no_snapshot_has_a_place() {
         assert!(done.stdout.contains("2 snapshots could not be checked"), "{}", done.stdout);
         let done = run_in(folder.path(), &["snapshot", "two.md", "--format", "json"]);
         let report: Value = serde_json::from_str(&done.stdout).unwrap();
-        assert_eq!((done.code, &report["files"][0]["standing"]), (1, &json!("unreadable")), "{output}");
+        assert_eq!((done.code, &report["files"][0]["status"]), (1, &json!("unreadable")), "{output}");
     }
     assert_eq!(run_in(folder.path(), &["snapshot", "two.md", "--accept"]).code, 0);
     assert_eq!(stored(folder.path()), text);

@@ -30,7 +30,7 @@ pub(crate) fn report(lab: &Value, more: &[&str]) -> (i32, Value) {
 /// The kinds of the findings, with the object concerned.
 fn kinds(report: &Value) -> Vec<(String, String)> {
     let text = |f: &Value, key: &str| f[key].as_str().unwrap().to_string();
-    report["findings"].as_array().unwrap().iter().map(|f| (text(f, "kind"), text(f, "who"))).collect()
+    report["findings"].as_array().unwrap().iter().map(|f| (text(f, "kind"), text(f, "subject"))).collect()
 }
 
 fn evidence(finding: &Value, name: &str) -> f64 {
@@ -59,7 +59,7 @@ fn a_gain_that_is_too_high_is_found_at_the_end_of_its_slider() {
     assert_eq!((code, &report["fine"]), (1, &json!(false)));
     let first = &report["findings"][0];
     assert_eq!(first["setting"], json!([{"control": "kp", "time": 0.0, "value": 3e6}]));
-    assert_eq!(first["who"], "joint \"rail\"");
+    assert_eq!(first["subject"], "joint \"rail\"");
     assert!(matches!(first["kind"].as_str().unwrap(), "diverges" | "energyGrows"), "{first}");
     let cause = first["cause"].as_str().unwrap();
     assert!(cause.contains("servo \"servo\"") && cause.contains("0.0012 s"), "{cause}");
@@ -83,7 +83,7 @@ fn bodies_in_exact_balance_are_pushed() {
     let (code, report) = report(&still, &[]);
     let first = &report["findings"][0];
     assert_eq!((code, &first["touched"], &first["setting"]), (1, &json!(true), &json!([])), "{first}");
-    assert_eq!(first["who"], "joint \"rail\"");
+    assert_eq!(first["subject"], "joint \"rail\"");
 }
 
 /// A plate of 1 cm, and a ball of 2 cm that buttons throw at it.
@@ -197,9 +197,10 @@ fn silent_exponential_growth_is_reported() {
 }
 
 /// The largest value of a margin, and its theoretical bound.
-fn margin(report: &Value, knob: &str, subject: &str) -> (f64, Option<f64>) {
+fn margin(report: &Value, parameter: &str, subject: &str) -> (f64, Option<f64>) {
     let all = report["margins"].as_array().unwrap();
-    let found = all.iter().find(|m| m["knob"] == knob && m["who"].as_str().unwrap().contains(subject));
+    let found =
+        all.iter().find(|m| m["parameter"] == parameter && m["subject"].as_str().unwrap().contains(subject));
     let found = found.unwrap_or_else(|| panic!("{all:#?}"));
     (found["largest"].as_f64().unwrap(), found["bound"].as_f64())
 }
@@ -222,12 +223,12 @@ fn margins_meet_the_bounds_of_one_degree_of_freedom() {
     let (code, report) = report(&still, &["--margins", "--until", "20"]);
     assert_eq!(code, 0);
     // 1 kg on 150 N/m: 2/ω. Then, at 2 ms, 4/h² for all springs together.
-    for (knob, subject, bound) in [
+    for (parameter, subject, bound) in [
         ("timestep", "lab", 2.0 / 150f64.sqrt()),
         ("gain", "servo", 1e6 - 50.0),
         ("stiffness", "rail", 1e6 - 100.0),
     ] {
-        let (largest, theory) = margin(&report, knob, subject);
+        let (largest, theory) = margin(&report, parameter, subject);
         near(largest, bound, 0.02);
         if let Some(theory) = theory {
             near(theory, bound, 0.02);
@@ -297,7 +298,7 @@ fn the_exponent_and_the_horizon_are_those_of_a_linear_equation() {
     // For x¨ = -0.75 x - 2 x˙, exp(-t / 2) decays slowest.
     let (_, damped) = self::report(&pushed("-0.75 * data.qpos[0] - 2 * data.qvel[0]"), &["--until", "10"]);
     assert_eq!(damped["sensitivity"]["exponent"], Value::Null);
-    assert!(damped["sensitivity"]["parting"]["high"].as_f64().unwrap() < 0.1);
+    assert!(damped["sensitivity"]["divergence"]["high"].as_f64().unwrap() < 0.1);
     assert_eq!(damped["sensitivity"]["horizons"][0]["until"], Value::Null);
 }
 

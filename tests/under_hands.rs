@@ -134,7 +134,8 @@ fn margins(lab: &str, recorded: &Json, computed: &Json, far: &mut Vec<String>) -
     );
     let (mut text, mut chances) = (String::new(), 0);
     for (a, b) in there.iter().zip(here) {
-        let name = |m: &Json| format!("{} of {}", m["knob"].as_str().unwrap(), m["who"].as_str().unwrap());
+        let name =
+            |m: &Json| format!("{} of {}", m["parameter"].as_str().unwrap(), m["subject"].as_str().unwrap());
         assert_eq!(name(a), name(b), "{lab}");
         let [x, y] = [a, b].map(|m| m["largest"].as_f64());
         let ratio = x.zip(y).map(|(x, y)| y / x);

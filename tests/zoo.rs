@@ -1,7 +1,7 @@
 //! The zoo (`specs/models/zoo`, one model per feature), compared with the results of MuJoCo 3.14.0.
 
+use crate::model_results::{Exception, ModelResults};
 use crate::recorded::{compare_with_recording, list, objects, set};
-use crate::standing::{Exception, ModelResults};
 use crate::support::{compile_unconstrained, models, recording, workspace};
 use labspec_core::reflect::{self, FieldSet, Object};
 use labspec_core::{self as core, AccessSet, Data, Model, Plan, Planned};
@@ -81,13 +81,13 @@ pub(crate) fn animals() -> impl Iterator<Item = (String, Model, Value)> {
 
 #[test]
 fn every_model_of_the_zoo_is_as_recorded() {
-    let mut standing = ModelResults::default();
+    let mut results = ModelResults::default();
     for name in models(&folder()) {
         let model = folder().join(format!("{name}.xml"));
         let outcome = compare_with_recording(&model, &recording(&format!("zoo/{name}")));
-        standing.add(name, outcome);
+        results.add(name, outcome);
     }
-    standing.check(Some("zoo"), EXCEPTIONS);
+    results.check(Some("zoo"), EXCEPTIONS);
 }
 
 /// Recorded fields of the library that we do not have.

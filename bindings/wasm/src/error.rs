@@ -21,7 +21,7 @@ pub(crate) fn thrown(e: &labspec::Error) -> JsValue {
 /// The error for a failure of the engine.
 pub(crate) fn refused(e: &core::Error) -> JsValue {
     let code = match e {
-        core::Error::Model(_) | core::Error::File(_) => e.diagnostics().first().map_or("model", |f| f.code),
+        core::Error::Model(list) => list.first().map_or("model", |f| f.code),
         core::Error::ForeignData => "foreign-data",
         core::Error::NoName { .. } => "unknown-name",
         core::Error::NoId { .. } => "unknown-id",
@@ -30,6 +30,7 @@ pub(crate) fn refused(e: &core::Error) -> JsValue {
         core::Error::Length { .. } => "wrong-length",
         core::Error::Value { .. } => "wrong-value",
         core::Error::NotAModel => "not-a-model",
+        core::Error::NoConvex { .. } => "no-convex-shapes",
         core::Error::Restore(_) => "not-a-state",
         _ => "call",
     };

@@ -87,13 +87,17 @@ fn models_hash(models: &Models) -> u64 {
 pub(crate) fn units(lesson: &Lesson) -> Vec<Range<usize>> {
     let labs = lesson.labs.iter().map(|entry| entry.span.clone());
     let quizzes = lesson.quizzes.iter().map(|quiz| quiz.span.clone());
-    labs.chain(quizzes).chain(lesson.remarks.iter().map(|remark| remark.span.clone())).collect()
+    labs.chain(quizzes).chain(lesson.claim_comments.iter().map(|comment| comment.span.clone())).collect()
 }
 
 /// The dependencies of the findings of a block: its text, the text to which it applies, and the texts of the labs
 /// and claims that it names.
 pub(crate) fn block_key(lesson: &Lesson, unit: &Range<usize>) -> String {
-    let over = lesson.remarks.iter().filter(|remark| remark.span == *unit).map(|remark| remark.over.clone());
+    let over = lesson
+        .claim_comments
+        .iter()
+        .filter(|comment| comment.span == *unit)
+        .map(|comment| comment.over.clone());
     let mut key = lesson.file.slice(unit.clone()).to_string();
     let used = claims(lesson, unit).flat_map(|claim| lesson.used_by(claim)).map(|used| used.span.clone());
     for span in over.chain(used) {
@@ -174,7 +178,12 @@ fn part_of(lesson: &Lesson, unit: &Range<usize>) -> Lesson {
         widgets: Vec::new(),
         broken: Vec::new(),
         definitions: lesson.definitions.clone(),
-        remarks: lesson.remarks.iter().filter(|remark| within(&remark.span, unit)).cloned().collect(),
+        claim_comments: lesson
+            .claim_comments
+            .iter()
+            .filter(|comment| within(&comment.span, unit))
+            .cloned()
+            .collect(),
         wholes: lesson.wholes.clone(),
         others: lesson.others.iter().filter(elsewhere).cloned().collect(),
         scan: Default::default(),

@@ -67,8 +67,8 @@ pub fn code_texts(lesson: &Lesson) -> Vec<CodeText<'_>> {
             add_claim(lesson, verify, question.sim(), &mut all);
         }
     }
-    for remark in &lesson.remarks {
-        add_claim(lesson, &remark.verify, None, &mut all);
+    for comment in &lesson.claim_comments {
+        add_claim(lesson, &comment.verify, None, &mut all);
     }
     all
 }

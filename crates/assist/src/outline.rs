@@ -19,9 +19,9 @@ pub fn outline(lesson: &Lesson) -> Vec<OutlineItem> {
     all.extend(lesson.widgets.iter().map(|widget| {
         (BLOCK, item(OutlineKind::Lab, &format!("widget {}", widget.name), "", &widget.span, &widget.span))
     }));
-    all.extend(lesson.remarks.iter().map(|remark| {
-        let named = item(OutlineKind::Claim, "claim in a comment", "", &remark.span, &remark.span);
-        (BLOCK, OutlineItem { children: claim_items(&remark.verify), ..named })
+    all.extend(lesson.claim_comments.iter().map(|comment| {
+        let named = item(OutlineKind::Claim, "claim in a comment", "", &comment.span, &comment.span);
+        (BLOCK, OutlineItem { children: claim_items(&comment.verify), ..named })
     }));
     all.sort_by_key(|(level, item)| (item.span.start, *level));
     nested(all)

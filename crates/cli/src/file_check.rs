@@ -170,7 +170,7 @@ fn check_lesson(
     };
     let CrossCheckRequest { collect_runs, recording } = request.cross_check;
     let cross_check = match collect_runs || recording.is_some() {
-        true => check::hear(&lesson, models, digest::hex_of, recording, &mut outcome.findings),
+        true => check::cross_check(&lesson, models, digest::hex_of, recording, &mut outcome.findings),
         false => CrossCheck::default(),
     };
     if interrupted() {

@@ -35,7 +35,7 @@ const MAX_QUOTED: usize = 60;
 const MAX_DEPTH: usize = 64;
 
 /// A mistake in a value.
-pub(super) struct Misfit {
+pub(super) struct SchemaViolation {
     /// Bytes of the value.
     pub(super) span: Range<usize>,
     /// What is wrong.
@@ -105,25 +105,27 @@ fn types(value: &Value) -> Option<Vec<&str>> {
 }
 
 /// Adds the mistakes of a value. The schema was checked ([`check_schema`]).
-pub(super) fn validate(schema: &Value, node: &Node, misfits: &mut Vec<Misfit>) {
+pub(super) fn validate(schema: &Value, node: &Node, violations: &mut Vec<SchemaViolation>) {
     let none = Map::new();
     let map = match schema {
-        Value::Bool(false) => return misfits.push(misfit(node, "no value is allowed here", "delete it")),
+        Value::Bool(false) => {
+            return violations.push(violation(node, "no value is allowed here", "delete it"));
+        }
         Value::Object(map) => map,
         _ => &none,
     };
-    let before = misfits.len();
-    validate_value(map, node, misfits);
-    if misfits.len() > before {
+    let before = violations.len();
+    validate_value(map, node, violations);
+    if violations.len() > before {
         return;
     }
     match &node.json {
-        Json::Object(_) => validate_object(map, node, misfits),
+        Json::Object(_) => validate_object(map, node, violations),
         Json::Array(items) => {
             let schema = map.get("items");
             items
                 .iter()
-                .for_each(|item| schema.into_iter().for_each(|schema| validate(schema, item, misfits)));
+                .for_each(|item| schema.into_iter().for_each(|schema| validate(schema, item, violations)));
         }
         _ => {}
     }
@@ -134,17 +136,17 @@ pub(super) fn validate(schema: &Value, node: &Node, misfits: &mut Vec<Misfit>) {
             list
         });
         // The mistakes of the schema that fits best.
-        misfits.extend(attempts.min_by_key(Vec::len).unwrap_or_default());
+        violations.extend(attempts.min_by_key(Vec::len).unwrap_or_default());
     }
 }
 
-fn misfit(node: &Node, message: impl Into<String>, help: impl Into<String>) -> Misfit {
-    Misfit { span: node.span.clone(), message: message.into(), help: help.into() }
+fn violation(node: &Node, message: impl Into<String>, help: impl Into<String>) -> SchemaViolation {
+    SchemaViolation { span: node.span.clone(), message: message.into(), help: help.into() }
 }
 
 /// The constraints of a value that do not concern its parts.
-fn validate_value(map: &Map<String, Value>, node: &Node, misfits: &mut Vec<Misfit>) {
-    let mut wrong = |message: String, help: String| misfits.push(misfit(node, message, help));
+fn validate_value(map: &Map<String, Value>, node: &Node, violations: &mut Vec<SchemaViolation>) {
+    let mut wrong = |message: String, help: String| violations.push(violation(node, message, help));
     if let Some(allowed) = map.get("type").and_then(types)
         && !allowed.iter().any(|ty| is_of_type(node, ty))
     {
@@ -192,19 +194,23 @@ fn validate_value(map: &Map<String, Value>, node: &Node, misfits: &mut Vec<Misfi
     }
 }
 
-fn validate_object(map: &Map<String, Value>, node: &Node, misfits: &mut Vec<Misfit>) {
+fn validate_object(map: &Map<String, Value>, node: &Node, violations: &mut Vec<SchemaViolation>) {
     for key in map.get("required").and_then(texts).unwrap_or_default() {
         if node.get(key).is_none() {
             let open = node.span.start..node.span.start + 1;
             let message = format!("`{}` is missing", printable(key));
-            misfits.push(Misfit { span: open, message, help: format!("add \"{}\": …", printable(key)) });
+            violations.push(SchemaViolation {
+                span: open,
+                message,
+                help: format!("add \"{}\": …", printable(key)),
+            });
         }
     }
     let properties = map.get("properties").and_then(Value::as_object);
     for member in node.members() {
         let key = member.key.as_str();
         match (properties.and_then(|all| all.get(key)), map.get("additionalProperties")) {
-            (Some(schema), _) => validate(schema, &member.value, misfits),
+            (Some(schema), _) => validate(schema, &member.value, violations),
             (None, Some(Value::Bool(false))) => {
                 let names = properties.into_iter().flat_map(Map::keys).map(String::as_str);
                 let help = match labspec_finding::nearest(key, names) {
@@ -212,9 +218,9 @@ fn validate_object(map: &Map<String, Value>, node: &Node, misfits: &mut Vec<Misf
                     None => "delete it".to_string(),
                 };
                 let message = format!("`{}` is not one of its keys", printable(key));
-                misfits.push(Misfit { span: member.key.span(), message, help });
+                violations.push(SchemaViolation { span: member.key.span(), message, help });
             }
-            (None, Some(schema)) => validate(schema, &member.value, misfits),
+            (None, Some(schema)) => validate(schema, &member.value, violations),
             (None, None) => {}
         }
     }
@@ -254,7 +260,7 @@ mod tests {
     use serde_json::json;
 
     /// The messages about a text, each with its place in it.
-    fn misfits(schema: &Value, text: &str) -> Vec<(String, String)> {
+    fn violations(schema: &Value, text: &str) -> Vec<(String, String)> {
         check_schema(schema).unwrap();
         let node = json::parse(text, &SourceMap::verbatim(0..text.len())).node.unwrap();
         let mut all = Vec::new();
@@ -289,10 +295,10 @@ mod tests {
             (json!(false), "", "1"),
         ] {
             if !right.is_empty() {
-                assert_eq!(misfits(&schema, right), [], "{schema} {right}");
+                assert_eq!(violations(&schema, right), [], "{schema} {right}");
             }
             if !wrong.is_empty() {
-                assert_eq!(misfits(&schema, wrong).len(), 1, "{schema} {wrong}");
+                assert_eq!(violations(&schema, wrong).len(), 1, "{schema} {wrong}");
             }
         }
     }
@@ -301,7 +307,7 @@ mod tests {
     fn every_mistake_has_its_place() {
         let schema = json!({"type": "object", "required": ["place"], "additionalProperties": false,
             "properties": {"place": {"type": "string"}, "zoom": {"type": "integer", "minimum": 1}, "pins": {"items": {"enum": ["red", "blue"]}}}});
-        let found = misfits(&schema, r#"{"zom": 3, "zoom": 0, "pins": ["red", "green"]}"#);
+        let found = violations(&schema, r#"{"zom": 3, "zoom": 0, "pins": ["red", "green"]}"#);
         let places: Vec<&str> = found.iter().map(|(_, place)| place.as_str()).collect();
         assert_eq!(places, ["{", "zom", "0", "\"green\""], "{found:?}");
     }

@@ -301,7 +301,10 @@ impl Globs {
         for (n, pattern) in patterns.iter().enumerate() {
             // As in `.gitignore`: `#` begins a comment, and `!` takes back what an earlier pattern matches.
             if pattern.trim().is_empty() || pattern.starts_with('#') || (n == 0 && pattern.starts_with('!')) {
-                return Err(format!("the pattern `{}` matches nothing; write one such as \"drafts/**\"", printable(pattern)));
+                return Err(format!(
+                    "the pattern `{}` matches nothing; write one such as \"drafts/**\"",
+                    printable(pattern)
+                ));
             }
             all.add_line(None, pattern).map_err(|e| format!("`{}`: {e}", printable(pattern)))?;
         }
@@ -471,7 +474,10 @@ mod tests {
         assert!(error("\nignore = ").contains("line 2"));
         assert!(error("[[paths]]\nignore = []").contains("needs `match`"));
         for pattern in ["", " ", "#1.md", "!drafts"] {
-            assert!(error(&format!("[[paths]]\nmatch = [{pattern:?}]\n")).contains("matches nothing"), "{pattern}");
+            assert!(
+                error(&format!("[[paths]]\nmatch = [{pattern:?}]\n")).contains("matches nothing"),
+                "{pattern}"
+            );
         }
         assert!(error("paths = 1").contains("[[paths]]"));
         assert!(error("paths = [1]").contains("[[paths]]"));

@@ -89,7 +89,7 @@ impl SnapshotStatus {
 /// A snapshot, and the actions on it.
 struct ReviewedSnapshot {
     file: PathBuf,
-    standing: SnapshotStatus,
+    status: SnapshotStatus,
     renewal: Option<SnapshotUpdate>,
     /// Labs whose current output is accepted.
     accepted: BTreeSet<String>,
@@ -105,7 +105,7 @@ pub(super) fn snapshot(a: &SnapshotArguments) -> Result<CommandOutcome, Failure>
             return Ok(CommandOutcome::Findings);
         }
         // A new snapshot overwrites nothing.
-        let whole = a.accept || (one.standing == SnapshotStatus::New && !a.review);
+        let whole = a.accept || (one.status == SnapshotStatus::New && !a.review);
         if let Some(renewal) = one.renewal.as_ref().filter(|_| whole) {
             one.accepted = renewal.labs.iter().map(|lab| lab.result.lab.clone()).collect();
         }
@@ -123,9 +123,9 @@ pub(super) fn snapshot(a: &SnapshotArguments) -> Result<CommandOutcome, Failure>
         SnapshotFormat::Json => print_report("snapshot", &machine(&all))?,
     }
     let open = |one: &ReviewedSnapshot| {
-        remaining_changes(one).next().is_some() || (one.standing == SnapshotStatus::Gone && !one.written)
+        remaining_changes(one).next().is_some() || (one.status == SnapshotStatus::Gone && !one.written)
     };
-    let unread = |one: &ReviewedSnapshot| one.standing == SnapshotStatus::Unreadable && !one.written;
+    let unread = |one: &ReviewedSnapshot| one.status == SnapshotStatus::Unreadable && !one.written;
     let bad = all.iter().any(|one| open(one) || unread(one));
     let in_part =
         all.iter().flat_map(|one| &one.renewal).flat_map(|r| &r.labs).any(|lab| lab.incomplete.is_some());
@@ -164,7 +164,7 @@ fn collect_lessons(a: &SnapshotArguments) -> Result<(Vec<ReviewedSnapshot>, bool
         }
         let renewal = check::update_snapshot(&lesson, models);
         let same = |lab: &UpdatedLab| is_same(lab);
-        let standing = match &renewal {
+        let status = match &renewal {
             r if r.fault.is_some() => SnapshotStatus::Unreadable,
             r if !r.stored => SnapshotStatus::New,
             r if r.labs.iter().all(same) => SnapshotStatus::Same,
@@ -173,15 +173,15 @@ fn collect_lessons(a: &SnapshotArguments) -> Result<(Vec<ReviewedSnapshot>, bool
         let file = snapshot_path(path);
         all.push(ReviewedSnapshot {
             file,
-            standing,
+            status,
             renewal: Some(renewal),
             accepted: BTreeSet::new(),
             written: false,
         });
     }
     for file in orphaned_snapshots(&a.paths) {
-        let (standing, accepted) = (SnapshotStatus::Gone, BTreeSet::new());
-        all.push(ReviewedSnapshot { file, standing, renewal: None, accepted, written: false });
+        let (status, accepted) = (SnapshotStatus::Gone, BTreeSet::new());
+        all.push(ReviewedSnapshot { file, status, renewal: None, accepted, written: false });
     }
     if all.is_empty() {
         let names: Vec<String> = a.paths.iter().map(|p| printable_path(p)).collect();
@@ -290,7 +290,7 @@ fn summary(all: &[ReviewedSnapshot], asked: bool) -> String {
         let file = printable_path(&one.file);
         let fault = one.renewal.as_ref().and_then(|r| r.fault.as_deref()).unwrap_or_default();
         let labs = one.accepted.len();
-        match (one.standing, one.written) {
+        match (one.status, one.written) {
             (SnapshotStatus::Same, false) => same += 1,
             (SnapshotStatus::Gone, true) => _ = writeln!(text, "removed    {file}: its lesson is gone"),
             (SnapshotStatus::Gone, false) => {
@@ -303,10 +303,10 @@ fn summary(all: &[ReviewedSnapshot], asked: bool) -> String {
                 _ = writeln!(text, "unreadable {}", printable(fault));
             }
             (SnapshotStatus::New | SnapshotStatus::Changed, false) => {
-                _ = writeln!(text, "{:<10} {file}", one.standing.as_str());
+                _ = writeln!(text, "{:<10} {file}", one.status.as_str());
             }
         }
-        let listed = !(asked || one.standing == SnapshotStatus::Unreadable);
+        let listed = !(asked || one.status == SnapshotStatus::Unreadable);
         for lab in remaining_changes(one) {
             open += 1;
             if listed {
@@ -342,7 +342,7 @@ struct FileRow<'a> {
     file: String,
     /// The state of the file before the command: not stored, as stored, changed, unreadable, or without its lesson.
     #[schemars(extend("enum" = SnapshotStatus::ALL.map(SnapshotStatus::as_str)))]
-    standing: &'static str,
+    status: &'static str,
     /// It was written anew, or removed.
     written: bool,
     /// What is wrong with a file that cannot be read, with its place; null otherwise.
@@ -364,7 +364,7 @@ struct SnapshotLabRow<'a> {
 fn machine(all: &[ReviewedSnapshot]) -> SnapshotReport<'_> {
     let files = all.iter().map(|one| FileRow {
         file: one.file.display().to_string(),
-        standing: one.standing.as_str(),
+        status: one.status.as_str(),
         written: one.written,
         fault: one.renewal.as_ref().and_then(|r| r.fault.as_deref()),
         labs: one.renewal.iter().flat_map(|r| &r.labs).map(|lab| lab_row(&lab.result, one)).collect(),
@@ -387,10 +387,10 @@ mod tests {
         let lab = "```lab simlab\n{\"xml\": \"<mujoco/>\", \"stopAt\": 0.01, \"readouts\": [{\"label\": \"t\", \"expr\": \"data.time\"}]}\n```\n\n";
         let lesson = read_lesson(SourceFile::new("a.md", lab.repeat(3)));
         let renewal = check::update_snapshot(&lesson, &Models::new(ModelFolder::unknown()));
-        let standing = SnapshotStatus::Changed;
+        let status = SnapshotStatus::Changed;
         ReviewedSnapshot {
             file: "a.md.snap".into(),
-            standing,
+            status,
             renewal: Some(renewal),
             accepted: BTreeSet::new(),
             written: false,

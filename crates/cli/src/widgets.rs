@@ -1,6 +1,6 @@
 //! The widgets of a page that labspec does not run: their names, and the JSON Schemas that their blocks must fit.
 
-use super::json_schema::{Misfit, check_schema, validate};
+use super::json_schema::{SchemaViolation, check_schema, validate};
 use labspec::finding::{Finding, InFile};
 use labspec::json;
 use labspec::ledger::{Evidence, State};
@@ -86,8 +86,8 @@ pub(super) fn check(lesson: &Lesson, widgets: &[PageWidget], findings: &mut Vec<
 }
 
 fn check_block(lesson: &Lesson, widget: &Widget, path: &str, schema: &Value, findings: &mut Vec<Finding>) {
-    for Misfit { span, message, help } in
-        misfits(lesson, widget, schema).into_iter().flatten().take(MAX_FINDINGS)
+    for SchemaViolation { span, message, help } in
+        violations(lesson, widget, schema).into_iter().flatten().take(MAX_FINDINGS)
     {
         let message = format!("this does not fit the schema of `{}`: {message}", widget.name);
         let finding =
@@ -97,13 +97,13 @@ fn check_block(lesson: &Lesson, widget: &Widget, path: &str, schema: &Value, fin
 }
 
 /// Where the JSON of a block does not fit a schema. `None` if it is malformed, which is reported as such.
-fn misfits(lesson: &Lesson, widget: &Widget, schema: &Value) -> Option<Vec<Misfit>> {
+fn violations(lesson: &Lesson, widget: &Widget, schema: &Value) -> Option<Vec<SchemaViolation>> {
     let block = lesson.scan.blocks.iter().find(|block| block.span == widget.span)?;
     let parsed = json::parse(&block.body.value, &block.body.map);
     let node = parsed.node.filter(|_| !parsed.broken)?;
-    let mut misfits = Vec::new();
-    validate(schema, &node, &mut misfits);
-    Some(misfits)
+    let mut violations = Vec::new();
+    validate(schema, &node, &mut violations);
+    Some(violations)
 }
 
 /// The state of the widget of a lesson at a place, and the word for it. `None` if the settings do not declare it.
@@ -115,8 +115,8 @@ pub(super) fn state(
     let widget = lesson.widgets.iter().find(|widget| widget.span == *span)?;
     let declared = widgets.iter().find(|declared| declared.name == widget.name)?;
     let Some((_, schema)) = &declared.schema else { return Some((State::NotClaimed, "not run")) };
-    Some(match misfits(lesson, widget, schema) {
-        Some(misfits) if misfits.is_empty() => (State::True(Evidence::Computed), "valid"),
+    Some(match violations(lesson, widget, schema) {
+        Some(violations) if violations.is_empty() => (State::True(Evidence::Computed), "valid"),
         Some(_) => (State::False, "invalid"),
         None => (State::Unchecked, "unreadable"),
     })

@@ -5,8 +5,8 @@
 use crate::bind::functions;
 use crate::rules;
 use crate::spec::format;
-use labspec_core::reflect::{self, Kind, Object, Stage};
 use labspec_bind::named_field as by_name;
+use labspec_core::reflect::{self, Kind, Object, Stage};
 use labspec_core::xml::{self, Status};
 use labspec_finding::{Layer, Rule, Severity};
 use std::fmt::Write;

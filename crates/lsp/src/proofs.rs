@@ -105,10 +105,11 @@ fn check_edit(lesson: &Lesson, models: &Models, edit: &Edit) -> Result<(), Strin
     text.insert_str(edit.span.start, &edit.text);
     let new = reload_lesson(lesson, &text, models.folder());
     let inserted = edit.span.start..edit.span.start + edit.text.len();
-    let remarks = new.remarks.iter().filter(|r| inserted.start <= r.span.start && r.span.end <= inserted.end);
+    let claim_comments =
+        new.claim_comments.iter().filter(|r| inserted.start <= r.span.start && r.span.end <= inserted.end);
     let mut quotes = Vec::new();
-    for remark in remarks {
-        let claims = check_claims_of(&new, &remark.span, models);
+    for comment in claim_comments {
+        let claims = check_claims_of(&new, &comment.span, models);
         quotes.extend(claims.into_iter().flat_map(|claim| claim.judgement.quotes));
     }
     match quotes.iter().find(|quote| quote.state != QuoteState::Right) {

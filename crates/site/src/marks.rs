@@ -43,11 +43,11 @@ pub(crate) fn text_marks(lesson: &Lesson, ledger: &Ledger) -> Vec<TextMark> {
     for entry in
         ledger.entries().iter().filter(|e| e.path == *lesson.file.path() && e.subject == Subject::Quote)
     {
-        let remark = lesson
-            .remarks
+        let comment = lesson
+            .claim_comments
             .iter()
             .find(|r| r.verify.says.iter().any(|quoted| quoted.quote.span() == entry.span));
-        let over = remark.map(|remark| &remark.over);
+        let over = comment.map(|comment| &comment.over);
         let (class, _) = class_of(entry.state);
         for span in rendered.places(&entry.what) {
             if over.is_none_or(|over| over.start <= span.start && span.end <= over.end) {

@@ -49,12 +49,13 @@ test("a model as text is refused with the next step", () => {
 test("bytes that are not a model of this version, and models that need convex shapes, are refused", () => {
   const damaged = Uint8Array.from(bytes, (byte, i) => (i === 200 ? byte ^ 1 : byte));
   for (const wrong of [damaged, bytes.subarray(0, 100), new Uint8Array()]) {
-    throws(() => Model.fromBytes(wrong), "call", /not a compiled model of this version/);
+    throws(() => Model.fromBytes(wrong), "not-a-model", /not a compiled model of this version/);
     throws(() => new Lab(json, { drop: wrong }), "model-unreadable", /not a compiled model of this version/);
     throws(() => new full.Lab(json, { drop: wrong }), "model-unreadable");
   }
   const cylinders = full.Model.fromXML("<mujoco><worldbody><geom type='box' size='1 1 .1'/><body name='bob' pos='0 0 1'><freejoint/><geom type='cylinder' size='.1 .1'/></body></worldbody></mujoco>").toBytes();
   throws(() => new Lab(json, { drop: cylinders }), "model-unreadable", /convex/);
+  throws(() => Model.fromBytes(cylinders), "no-convex-shapes", /convex/);
   assert.equal(new full.Lab(json, { drop: cylinders }).playTo(0.1), 50);
 });
 

@@ -107,7 +107,7 @@ class Fault:
     kind: str
     #: s
     time: float
-    who: str
+    subject: str
     cause: str
     #: The controls that were moved: label, time in s, and value; ``None`` for a button.
     setting: tuple[tuple[str, float, float | str | bool | None], ...]
@@ -123,8 +123,8 @@ class Fault:
 class Margin:
     """How far a parameter can be raised before something goes wrong, in its unit."""
 
-    knob: str
-    who: str
+    parameter: str
+    subject: str
     unit: str
     now: float
     largest: float | None
@@ -157,11 +157,11 @@ class Stability:
         heading = _html.heading("Nothing goes wrong" if not self.faults else f"{len(self.faults)} faults", f"{self.runs} runs of {self.length:g} s")
         faults = _html.table(
             ["fault", "at (s)", "of", "cause", "helps"],
-            [[f.kind + (" (as the lab expects)" if f.expected else ""), f.time, f.who, f.cause, "; ".join(f.remedies)] for f in self.faults],
+            [[f.kind + (" (as the lab expects)" if f.expected else ""), f.time, f.subject, f.cause, "; ".join(f.remedies)] for f in self.faults],
         )
         margins = _html.table(
             ["parameter", "of", "now", "largest", "theory"],
-            [[m.knob, m.who, m.now, "none" if m.largest is None else m.largest, "" if m.bound is None else m.bound] for m in self.margins],
+            [[m.parameter, m.subject, m.now, "none" if m.largest is None else m.largest, "" if m.bound is None else m.bound] for m in self.margins],
         )
         return heading + faults + margins + (_html.picture(self.chart, "map of two controls") if self.chart else "")
 
@@ -174,7 +174,7 @@ def stability_of(text: str, chart: str | None) -> Stability:
         Fault(
             kind=row["kind"],
             time=row["time"],
-            who=row["who"],
+            subject=row["subject"],
             cause=row["cause"],
             setting=tuple((action["control"], action["time"], action["value"]) for action in row["setting"]),
             settings=row["settings"],
@@ -183,7 +183,7 @@ def stability_of(text: str, chart: str | None) -> Stability:
         )
         for row in report["findings"]
     )
-    margins = tuple(Margin(**{key: row[key] for key in ("knob", "who", "unit", "now", "largest", "breaks", "bound")}) for row in report["margins"])
+    margins = tuple(Margin(**{key: row[key] for key in ("parameter", "subject", "unit", "now", "largest", "breaks", "bound")}) for row in report["margins"])
     return Stability(
         fine=report["fine"],
         length=report["length"],

@@ -103,7 +103,7 @@ struct FaultRow<'a> {
     /// When, in seconds of the lab's clock.
     time: f64,
     /// The joint, the body, or the two that touch, in words.
-    who: &'a str,
+    subject: &'a str,
     /// The likely cause, in words.
     cause: &'a str,
     /// The numbers that show it.
@@ -167,9 +167,9 @@ struct RemedyRow<'a> {
 struct MarginRow<'a> {
     /// What was raised.
     #[schemars(extend("enum" = ParameterKind::ALL.map(|kind| key(kind.description()))))]
-    knob: String,
+    parameter: String,
     /// Of what, in words.
-    who: &'a str,
+    subject: &'a str,
     /// Its unit; empty where it differs from joint to joint, or for a ratio.
     unit: &'static str,
     /// The value that the lab has.
@@ -197,7 +197,7 @@ struct BreakRow<'a> {
     #[schemars(with = "WordOf<FaultKind>")]
     kind: String,
     /// The joint, the body, or the two that touch, in words.
-    who: &'a str,
+    subject: &'a str,
 }
 
 /// How much the lab depends on its start, as it stands.
@@ -206,11 +206,10 @@ struct SensitivityRow<'a> {
     /// Over how long, in seconds.
     length: f64,
     /// How far the other start is off, in the unit of each coordinate.
-    #[serde(rename = "apart")]
     distance: f64,
     /// The factor by which a small initial difference grows until the end; null if nothing moves or the lab does not reach its
     /// end.
-    parting: Option<WithNonfinite<PartingRow>>,
+    divergence: Option<WithNonfinite<DivergenceRow>>,
     /// The largest Lyapunov exponent, in 1/s; null where small differences do not grow exponentially.
     exponent: Option<ExponentRow>,
     /// The readouts.
@@ -219,7 +218,7 @@ struct SensitivityRow<'a> {
 
 /// How many times as large a small difference at the start is at the end.
 #[derive(Serialize, JsonSchema)]
-struct PartingRow {
+struct DivergenceRow {
     /// Along the direction that grows least.
     #[schemars(with = "AnyNumber")]
     low: f64,
@@ -321,7 +320,7 @@ fn fault_row<'a>(fault: &'a Fault, interaction: &Interaction, programs: &'a Prog
     FaultRow {
         kind: key(fault.kind.description()),
         time: fault.time,
-        who: &fault.subject,
+        subject: &fault.subject,
         cause: &fault.cause,
         evidence: evidence.collect(),
         setting: actions(interaction, programs),
@@ -330,13 +329,16 @@ fn fault_row<'a>(fault: &'a Fault, interaction: &Interaction, programs: &'a Prog
 
 fn margin_row(m: &Margin) -> MarginRow<'_> {
     MarginRow {
-        knob: key(m.knob.description()),
-        who: &m.subject,
+        parameter: key(m.parameter.description()),
+        subject: &m.subject,
         unit: m.unit,
         current: m.current,
         largest: m.largest,
         breaks: m.breaks,
-        how: m.how.as_ref().map(|(kind, subject)| BreakRow { kind: key(kind.description()), who: subject }),
+        how: m
+            .how
+            .as_ref()
+            .map(|(kind, subject)| BreakRow { kind: key(kind.description()), subject: subject }),
         bound: m.bound,
         runs: m.runs,
         geoms: &m.geoms,
@@ -348,8 +350,8 @@ fn sensitivity_row(s: &Sensitivity) -> SensitivityRow<'_> {
     SensitivityRow {
         length: s.length,
         distance: s.distance,
-        parting: s.parting.map(|DivergenceOfStarts { low, high }| {
-            with_nonfinite(&PartingRow { low, high }, &[("low", &low), ("high", &high)])
+        divergence: s.divergence.map(|DivergenceOfStarts { low, high }| {
+            with_nonfinite(&DivergenceRow { low, high }, &[("low", &low), ("high", &high)])
         }),
         exponent: s.exponent.map(|e| ExponentRow {
             mean: e.mean,

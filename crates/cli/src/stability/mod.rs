@@ -196,7 +196,7 @@ fn margin(m: &Margin) -> [String; 6] {
         (Some(x), None) => format!("> {}", value(x)),
         (None, _) => "none".into(),
     };
-    let subject = if m.knob.description() == "timestep" {
+    let subject = if m.parameter.description() == "timestep" {
         String::new()
     } else {
         format!(" of {}", printable(&m.subject))
@@ -206,7 +206,7 @@ fn margin(m: &Margin) -> [String; 6] {
         .as_ref()
         .map_or(String::new(), |(kind, subject)| format!("{}: {}", kind.description(), printable(subject)));
     [
-        format!("{}{subject}", m.knob.description()),
+        format!("{}{subject}", m.parameter.description()),
         value(m.current),
         largest,
         m.largest.map_or(String::new(), |x| two_digits(x / m.current)),
@@ -217,7 +217,7 @@ fn margin(m: &Margin) -> [String; 6] {
 
 /// Writes how strongly the lab depends on its initial state.
 fn sensitivity(s: &Sensitivity, text: &mut String) {
-    if let Some(p) = &s.parting {
+    if let Some(p) = &s.divergence {
         let most = 1.0 / s.distance;
         let times = match [p.low, p.high].map(two_digits) {
             _ if p.low >= most => format!("more than {most:e}"),

@@ -18,10 +18,10 @@ use super::spec::{
 };
 use super::tendon::{fill_tendon, read_tendon};
 use super::text::diagnostic::Diagnostics;
-use crate::api::files::Files;
-use crate::api::patch::{Patch, Refusal};
 use super::text::{load, tree};
 use super::{expand, fill, ids, layout, names, settings};
+use crate::api::files::Files;
+use crate::api::patch::{Patch, Refusal};
 use crate::mjcf::gather::listed;
 use crate::mjcf::rules;
 use crate::model::Model;

@@ -33,14 +33,17 @@ pub struct StageTimes {
 impl StageTimes {
     /// The cost of a stage.
     pub fn stage_time(&self, stage: Stage) -> StageTime {
-        self.stages.iter().find(|(s, _)| *s == stage).map_or(StageTime::default(), |(_, lap)| *lap)
+        self.stages
+            .iter()
+            .find(|(s, _)| *s == stage)
+            .map_or(StageTime::default(), |(_, stage_time)| *stage_time)
     }
 
     /// Adds one run of a stage, or of an empty call.
     pub(crate) fn add(&mut self, stage: Option<Stage>, time: u64, work: u64) {
         let Some(stage) = stage else { return self.nothing.add(time, work) };
         match self.stages.iter_mut().find(|(s, _)| *s == stage) {
-            Some((_, lap)) => lap.add(time, work),
+            Some((_, stage_time)) => stage_time.add(time, work),
             None => self.stages.push((stage, StageTime { runs: 1, time, work })),
         }
     }
@@ -51,7 +54,7 @@ impl StageTimes {
 pub struct Stopwatch {
     pub(crate) clock: fn() -> u64,
     /// Time and runs of each stage so far.
-    pub laps: StageTimes,
+    pub stage_times: StageTimes,
     /// The time at which the last part of a pass ended.
     pub ended: Option<u64>,
 }
@@ -59,19 +62,19 @@ pub struct Stopwatch {
 impl PartialEq for Stopwatch {
     /// Compares the measurements. The clocks cannot be compared.
     fn eq(&self, other: &Stopwatch) -> bool {
-        (&self.laps, self.ended) == (&other.laps, other.ended)
+        (&self.stage_times, self.ended) == (&other.stage_times, other.ended)
     }
 }
 
 impl Stopwatch {
     pub(crate) fn new(clock: fn() -> u64) -> Stopwatch {
-        Stopwatch { clock, laps: StageTimes::default(), ended: None }
+        Stopwatch { clock, stage_times: StageTimes::default(), ended: None }
     }
 
     /// Records the start of a part of a pass.
     pub(crate) fn begin(&mut self) {
         if let Some(ended) = self.ended.take() {
-            self.laps.between.add((self.clock)().saturating_sub(ended), 0);
+            self.stage_times.between.add((self.clock)().saturating_sub(ended), 0);
         }
     }
 

@@ -26,9 +26,9 @@ pub(super) fn walk(
     if let Some(watch) = &mut s.watch {
         watch.begin();
     }
-    lap(nothing, None, m, d, s);
+    run_stage(nothing, None, m, d, s);
     let kept_rows = rows.iter().zip(stages).enumerate().filter(|(i, _)| bits & !CLOCKED & (1 << i) != 0);
-    kept_rows.for_each(|(_, (run, stage))| lap(*run, *stage, m, d, s));
+    kept_rows.for_each(|(_, (run, stage))| run_stage(*run, *stage, m, d, s));
     if let Some(watch) = &mut s.watch {
         watch.end();
     }
@@ -36,13 +36,13 @@ pub(super) fn walk(
 
 /// Runs one stage, or an empty call, between two readings of the clock.
 #[inline(never)]
-fn lap(run: Run, stage: Option<Stage>, m: &Model, d: &mut Fields, s: &mut StepScratch) {
+fn run_stage(run: Run, stage: Option<Stage>, m: &Model, d: &mut Fields, s: &mut StepScratch) {
     let clock = s.watch.as_ref().map(|watch| watch.clock);
     let before = clock.map(|clock| (d.meter.cost, clock()));
     run(m, d, s);
     let current = clock.map(|clock| clock());
     if let (Some(watch), Some((work, time)), Some(current)) = (&mut s.watch, before, current) {
-        watch.laps.add(stage, current.saturating_sub(time), d.meter.cost.saturating_sub(work));
+        watch.stage_times.add(stage, current.saturating_sub(time), d.meter.cost.saturating_sub(work));
     }
 }
 

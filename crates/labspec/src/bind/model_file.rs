@@ -62,7 +62,12 @@ pub(crate) fn compile_to_play(lab: &Lab, folder: &ModelFolder) -> Compiled {
     if let Some(bytes) = folder.given().and_then(|given| given.compiled(&name.value)) {
         return match Model::from_bytes(&bytes) {
             Ok(model) => Compiled { model: Some(model), ..Compiled::default() },
-            Err(e) => refused(rules::MODEL_UNREADABLE, name, format!("the model `{}` cannot be loaded: {e}", name.value), STORE_AGAIN.into()),
+            Err(e) => refused(
+                rules::MODEL_UNREADABLE,
+                name,
+                format!("the model `{}` cannot be loaded: {e}", name.value),
+                STORE_AGAIN.into(),
+            ),
         };
     }
     if let Some(given) = folder.given()

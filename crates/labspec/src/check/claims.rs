@@ -8,7 +8,7 @@ use crate::finding::Finding;
 use crate::json::read::named;
 use crate::ledger::State;
 use crate::rules;
-use crate::spec::{Lab, Lesson, Question, QuestionKind, Remark, Verify};
+use crate::spec::{ClaimComment, Lab, Lesson, Question, QuestionKind, Verify};
 use crate::verify::{self, Answer, BoundLab, BoundVerify, Judgement, QuoteState, RenderedText, RunCache};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -50,7 +50,7 @@ pub(super) enum Owner<'a> {
     /// A question, with or without a `verify` object.
     Question(&'a Question),
     /// A comment in the text.
-    Remark(&'a Remark),
+    ClaimComment(&'a ClaimComment),
 }
 
 impl<'a> Owner<'a> {
@@ -62,7 +62,7 @@ impl<'a> Owner<'a> {
         let (verify, lab, question) = match self {
             Owner::Lab(lab) => (lab.verify.as_ref()?, Some(*lab), None),
             Owner::Question(q) => (q.verify.as_ref()?, q.sim(), Some(*q)),
-            Owner::Remark(remark) => (&remark.verify, None, None),
+            Owner::ClaimComment(comment) => (&comment.verify, None, None),
         };
         Some((lesson.whole(verify), lab, question))
     }
@@ -70,7 +70,7 @@ impl<'a> Owner<'a> {
     /// The bytes that it refers to, unless it refers to the whole lesson.
     pub(super) fn block(&self) -> Option<&'a Range<usize>> {
         match self {
-            Owner::Remark(remark) => Some(&remark.over),
+            Owner::ClaimComment(comment) => Some(&comment.over),
             _ => None,
         }
     }
@@ -96,9 +96,9 @@ pub(super) fn owners(lesson: &Lesson) -> Vec<(String, Owner<'_>)> {
         all.extend(questions.map(|(n, q)| (format!("quiz {id}, question {n}"), Owner::Question(q))));
     }
     all.retain(|(_, owner)| matches!(owner, Owner::Question(_)) || owner.claim(lesson).is_some());
-    for remark in &lesson.remarks {
-        let line = lesson.file.position(remark.span.start).line;
-        all.push((format!("comment in line {line}"), Owner::Remark(remark)));
+    for comment in &lesson.claim_comments {
+        let line = lesson.file.position(comment.span.start).line;
+        all.push((format!("comment in line {line}"), Owner::ClaimComment(comment)));
     }
     all
 }
@@ -157,7 +157,7 @@ pub(super) fn check_claims<'l>(
         match owner {
             Owner::Lab(lab) => checker.judge_lab(name, lab, findings),
             Owner::Question(question) => checker.judge_question(name, question, findings),
-            Owner::Remark(remark) => checker.judge_remark(name, remark, findings),
+            Owner::ClaimComment(comment) => checker.judge_comment(name, comment, findings),
         }
     }
     checker.list
@@ -196,10 +196,10 @@ impl ClaimChecker<'_> {
         }
     }
 
-    fn judge_remark(&mut self, name: String, remark: &Remark, findings: &mut Vec<Finding>) {
-        let rendered = self.rendered.within(&remark.over, &remark.verify);
-        let judgement = self.judge_as(&name, &remark.verify, None, None, &rendered, findings);
-        self.list.push(Claim { name, span: remark.verify.span.clone(), judgement });
+    fn judge_comment(&mut self, name: String, comment: &ClaimComment, findings: &mut Vec<Finding>) {
+        let rendered = self.rendered.within(&comment.over, &comment.verify);
+        let judgement = self.judge_as(&name, &comment.verify, None, None, &rendered, findings);
+        self.list.push(Claim { name, span: comment.verify.span.clone(), judgement });
     }
 
     /// Checks a claim, and sets its identity in the findings.

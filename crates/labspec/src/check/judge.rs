@@ -51,7 +51,7 @@ pub struct CrossCheck {
 }
 
 /// Collects the requests for all runs of the lesson, and compares its claims with the recording if there is one.
-pub fn hear(
+pub fn cross_check(
     lesson: &Lesson,
     models: &Models,
     hash_bytes: Hash,

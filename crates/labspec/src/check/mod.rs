@@ -32,7 +32,7 @@ pub use claims::Claim;
 pub use curves::{VerifyCurves, curves};
 pub(crate) use entries::is_unfinished;
 pub use entries::{ledger, measure_lines, option_lines};
-pub use judge::{CrossCheck, ReferenceRecording, Request, file_name, hear};
+pub use judge::{CrossCheck, ReferenceRecording, Request, cross_check, file_name};
 pub use lab_runs::Coverage;
 pub use printed_numbers::{PrintedNumber, claim_printed_numbers};
 pub use reproduce::{Basis, ClaimBasis, LabBasis, RunSettings, basis};

@@ -95,7 +95,7 @@ pub fn basis(lesson: &Lesson, models: &Models, hash: Hash) -> Basis {
         let span = match &owner {
             Owner::Lab(lab) => &lab.span,
             Owner::Question(question) => &question.span,
-            Owner::Remark(remark) => &remark.span,
+            Owner::ClaimComment(comment) => &comment.span,
         };
         let started = start_runs(lesson, &ready, verify, written, &stage);
         let model = started.as_ref().and_then(|b| b.model.as_ref()).map(|m| hash(&[&m.to_bytes()]));

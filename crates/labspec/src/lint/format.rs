@@ -3,15 +3,15 @@
 use crate::finding::Finding;
 use crate::rules;
 use crate::source::MAX_FILE;
-use crate::spec::{Misfit, Mistake};
+use crate::spec::{FormatProblem, Mistake};
 use std::ops::Range;
 
-/// The finding about a misfit.
-pub(super) fn to_finding(misfit: &Misfit) -> Finding {
-    let mut finding = finding_at(misfit.span.clone(), &misfit.mistake);
+/// The finding about a problem.
+pub(super) fn to_finding(problem: &FormatProblem) -> Finding {
+    let mut finding = finding_at(problem.span.clone(), &problem.mistake);
     // A page does not read `verify` objects, so the consequence of an error there concerns only the check.
     let reason = |rule: &rules::Rule| *finding.code == *rule && finding.why.as_deref() == Some(rule.why);
-    if misfit.in_verify && [rules::UNKNOWN_KEY, rules::WRONG_TYPE].into_iter().any(reason) {
+    if problem.in_verify && [rules::UNKNOWN_KEY, rules::WRONG_TYPE].into_iter().any(reason) {
         finding.why =
             Some("only this checker reads `verify`: what it does not understand is not checked".into());
     }

@@ -48,7 +48,7 @@ pub(crate) fn to_finding(text: &str, problem: &Problem) -> Finding {
     match problem {
         Problem::Fence(problem) => fence::to_finding(text, problem),
         Problem::Json(problem) => json::to_finding(problem),
-        Problem::Format(misfit) => format::to_finding(misfit),
+        Problem::Format(problem) => format::to_finding(problem),
     }
 }
 

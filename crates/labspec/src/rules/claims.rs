@@ -22,9 +22,10 @@ pub(crate) fn all(lesson: &Lesson) -> impl Iterator<Item = LessonClaim<'_>> {
     let of_questions = questions.filter_map(|(_, question)| {
         Some(LessonClaim { verify: question.verify.as_ref()?, lab: question.sim(), question: Some(question) })
     });
-    let remarks = lesson.remarks.iter();
-    let remarks = remarks.map(|remark| LessonClaim { verify: &remark.verify, lab: None, question: None });
-    of_labs.chain(of_questions).chain(remarks)
+    let claim_comments = lesson.claim_comments.iter();
+    let claim_comments =
+        claim_comments.map(|comment| LessonClaim { verify: &comment.verify, lab: None, question: None });
+    of_labs.chain(of_questions).chain(claim_comments)
 }
 
 impl<'a> LessonClaim<'a> {

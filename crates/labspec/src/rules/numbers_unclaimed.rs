@@ -170,11 +170,11 @@ fn suggest_quotes(lesson: &Lesson, counted: &Counted, findings: &mut [Finding]) 
     for finding in findings.iter_mut().filter(|f| f.code == super::QUOTE_NOT_FOUND.code) {
         let text = lesson.file.text().get(finding.span.clone()).unwrap_or("");
         let Ok(read) = quoted(text) else { continue };
-        let remark = lesson.remarks.iter().find(|remark| contains(&remark.span, &finding.span));
+        let comment = lesson.claim_comments.iter().find(|comment| contains(&comment.span, &finding.span));
         let difference = |s: &Stated| (s.read.value - read.value).abs();
         let is_meant = |s: &&Stated| {
             difference(s) <= NEARLY_EQUAL * read.value.abs()
-                && remark.is_none_or(|remark| contains(&remark.over, &s.span))
+                && comment.is_none_or(|comment| contains(&comment.over, &s.span))
         };
         let mut meant: Vec<&Stated> = counted.left.iter().filter(is_meant).collect();
         meant.sort_by(|a, b| difference(a).total_cmp(&difference(b)));

@@ -133,12 +133,12 @@ pub struct Column {
     /// The text in the first column of the one row that is claimed.
     pub row: Option<Text>,
     /// The content of the cells.
-    pub is: Stands,
+    pub is: ColumnCells,
 }
 
 /// The content of the cells of a column.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Stands {
+pub enum ColumnCells {
     /// Numbers: a list of them, or one number for one cell.
     Number(Text),
     /// Words, each with the list of its conditions, or one condition for one cell.
@@ -149,8 +149,8 @@ impl Column {
     /// Its expressions.
     pub fn expressions(&self) -> impl Iterator<Item = &Text> {
         let (number, words) = match &self.is {
-            Stands::Number(text) => (Some(text), &[][..]),
-            Stands::Words(words) => (None, words.as_slice()),
+            ColumnCells::Number(text) => (Some(text), &[][..]),
+            ColumnCells::Words(words) => (None, words.as_slice()),
         };
         self.by.iter().map(|(_, list)| list).chain(number).chain(words.iter().map(|(_, holds)| holds))
     }
@@ -158,7 +158,7 @@ impl Column {
 
 /// A quote of the text, and the expressions for it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Said {
+pub struct QuotedClaim {
     /// The quoted text, such as `0.442 s`.
     pub quote: Text,
     /// The expressions for its numbers, in order; a condition belongs to its words.

@@ -26,7 +26,7 @@ pub(super) struct Comment {
 
 /// A claim about a block of the text.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Remark {
+pub struct ClaimComment {
     /// Bytes of the comment.
     pub span: Range<usize>,
     /// Bytes of the block to which it applies.

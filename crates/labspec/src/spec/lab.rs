@@ -2,7 +2,7 @@
 
 use super::address::LabAddress;
 use super::allow::Allowance;
-use super::claim::{Change, Column, Exact, Find, Said, Sweep};
+use super::claim::{Change, Column, Exact, Find, QuotedClaim, Sweep};
 use super::control::Control;
 use super::format::{CAMERA, LAB};
 use super::plot::{Plot, Readout};
@@ -315,7 +315,7 @@ pub struct Verify {
     /// Values that result from typical errors and that the tolerance of a numeric answer must reject.
     pub wrong: Vec<Text>,
     /// Numbers quoted in the text, each with the expression whose rounded value it must equal.
-    pub says: Vec<Said>,
+    pub says: Vec<QuotedClaim>,
     /// Columns and cells of tables, each with the values that it must contain.
     pub table: Vec<Column>,
     /// Closed forms that traces must follow.

@@ -1,7 +1,7 @@
 //! A lesson: the contents of its blocks, in order, with the labs and the claims.
 
 use super::address::LabAddress;
-use super::comment::{Definition, Remark};
+use super::comment::{ClaimComment, Definition};
 use super::conventions::Conventions;
 use super::lab::{Lab, Verify, VerifyLab};
 use super::problem::Problem;
@@ -30,7 +30,7 @@ pub struct Lesson {
     /// The fences, the HTML and the listings of the Markdown.
     pub scan: Scan,
     /// Claims about blocks of the text, in comments before these blocks.
-    pub remarks: Vec<Remark>,
+    pub claim_comments: Vec<ClaimComment>,
     /// Runs and measures with a name, which `verify` objects use.
     pub definitions: Vec<Definition>,
     /// The `verify` objects with a `use`, merged with the objects that they use.
@@ -133,8 +133,8 @@ impl Lesson {
     pub fn scoped(&self) -> impl Iterator<Item = (&Verify, Option<&Range<usize>>)> {
         let labs = self.all_labs().into_iter().filter_map(|lab| lab.verify.as_ref());
         let questions = self.quizzes.iter().flat_map(Quiz::numbered).filter_map(|(_, q)| q.verify.as_ref());
-        let remarks = self.remarks.iter().map(|remark| (&remark.verify, Some(&remark.over)));
-        labs.chain(questions).map(|verify| (verify, None)).chain(remarks)
+        let claim_comments = self.claim_comments.iter().map(|comment| (&comment.verify, Some(&comment.over)));
+        labs.chain(questions).map(|verify| (verify, None)).chain(claim_comments)
     }
 
     /// All labs with an address: the labs in order, then the sims of the questions.
@@ -157,7 +157,7 @@ impl Lesson {
         let mut open: Vec<&Lab> = self.addressed().into_iter().map(|(_, lab)| lab).collect();
         let questions = self.quizzes.iter().flat_map(|q| q.numbered());
         open.extend(questions.filter_map(|(_, q)| q.verify.as_ref()).flat_map(inline));
-        open.extend(self.remarks.iter().flat_map(|remark| inline(&remark.verify)));
+        open.extend(self.claim_comments.iter().flat_map(|comment| inline(&comment.verify)));
         let mut all = Vec::new();
         // An inline lab can contain a `verify` object with another inline lab. The JSON depth limits the length of this
         // chain.

@@ -34,9 +34,10 @@ pub use address::LabAddress;
 pub use allow::Allowance;
 pub use answer_key::{AnswerHash, AnswerKey, KeyValue};
 pub use claim::{
-    Change, Column, Exact, Find, MOST_AXES, MOST_SWEPT, Said, Stands, Sweep, SweepAxis, SweepValue,
+    Change, Column, ColumnCells, Exact, Find, MOST_AXES, MOST_SWEPT, QuotedClaim, Sweep, SweepAxis,
+    SweepValue,
 };
-pub use comment::{Definition, Remark};
+pub use comment::{ClaimComment, Definition};
 pub(crate) use comment::{UnreadComment, claims_in_comments, unread_comments};
 pub use control::{Action, Choice, Control, ControlKind};
 pub use conventions::Conventions;
@@ -48,7 +49,7 @@ pub use lab::{
 };
 pub use lesson::{DataFile, LabEntry, Lesson, Other, Widget};
 pub use plot::{Plot, Readout, RefLine, Trace};
-pub use problem::{Expected, Meant, Misfit, Mistake, Problem};
+pub use problem::{Expected, FormatProblem, Meant, Mistake, Problem};
 pub use quiz::{ChoiceStyle, Question, QuestionKind, Quiz};
 pub(crate) use read_lesson::read_lab_json;
 pub use read_lesson::{read_lesson, read_lesson_in, read_other};

@@ -11,12 +11,12 @@ pub enum Problem {
     /// In the JSON of a block.
     Json(json::Problem),
     /// In an object that does not conform to the format.
-    Format(Misfit),
+    Format(FormatProblem),
 }
 
 /// A deviation from the format.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Misfit {
+pub struct FormatProblem {
     /// Byte range in the file.
     pub span: Range<usize>,
     /// The error.
@@ -184,6 +184,6 @@ pub enum Meant {
 impl Mistake {
     /// The problem at this byte range of the file.
     pub(super) fn at(self, span: Range<usize>) -> Problem {
-        Problem::Format(Misfit { span, mistake: self, in_verify: false })
+        Problem::Format(FormatProblem { span, mistake: self, in_verify: false })
     }
 }

@@ -1,7 +1,8 @@
 //! Reads the parts of a `verify` object that contain no lab.
 
 use super::claim::{
-    Change, Column, Exact, Find, MOST_AXES, MOST_SWEPT, Said, Stands, Sweep, SweepAxis, SweepValue,
+    Change, Column, ColumnCells, Exact, Find, MOST_AXES, MOST_SWEPT, QuotedClaim, Sweep, SweepAxis,
+    SweepValue,
 };
 use super::fields::Fields;
 use super::format::{CLOSED_FORM, COLUMN, FIND, SPAN};
@@ -180,7 +181,7 @@ pub(super) fn read_press(node: &Node, problems: &mut Vec<Problem>) -> Option<(Te
 }
 
 /// Reads the entries of `says`. A single entry that is not in a list of its own is one mistake.
-pub(super) fn read_all_says(nodes: &[Node], problems: &mut Vec<Problem>) -> Vec<Said> {
+pub(super) fn read_all_says(nodes: &[Node], problems: &mut Vec<Problem>) -> Vec<QuotedClaim> {
     if let [Node { json: Json::Text(quote), span }, Node { json: Json::Text(expression), span: last }] = nodes
     {
         let texts = [quote.value.clone(), expression.value.clone()];
@@ -190,7 +191,7 @@ pub(super) fn read_all_says(nodes: &[Node], problems: &mut Vec<Problem>) -> Vec<
     nodes.iter().filter_map(|node| read_says(node, problems)).collect()
 }
 
-fn read_says(node: &Node, problems: &mut Vec<Problem>) -> Option<Said> {
+fn read_says(node: &Node, problems: &mut Vec<Problem>) -> Option<QuotedClaim> {
     if node.is_broken() {
         return None;
     }
@@ -203,7 +204,7 @@ fn read_says(node: &Node, problems: &mut Vec<Problem>) -> Option<Said> {
             Json::Array(items) if !items.is_empty() => items.iter().map(&mut expression).collect(),
             _ => expression(expr).map(|one| vec![one]),
         };
-        return Some(Said { quote: quote?, exprs: exprs? });
+        return Some(QuotedClaim { quote: quote?, exprs: exprs? });
     }
     problems.push(Mistake::NoQuote.at(node.span.clone()));
     None
@@ -225,14 +226,14 @@ fn read_row_keys(node: &Node, problems: &mut Vec<Problem>) -> Option<(Text, Text
 }
 
 /// The contents of cells: numbers, or words with the condition for each.
-fn read_cells(node: &Node, problems: &mut Vec<Problem>) -> Option<Stands> {
+fn read_cells(node: &Node, problems: &mut Vec<Problem>) -> Option<ColumnCells> {
     let text = |node: &Node, problems: &mut Vec<Problem>| read::text(node, "what the cells state", problems);
     match &node.json {
         Json::Object(members) => {
             let one = |m: &Member| Some((m.key.clone(), text(&m.value, problems)?));
-            members.iter().map(one).collect::<Option<_>>().map(Stands::Words)
+            members.iter().map(one).collect::<Option<_>>().map(ColumnCells::Words)
         }
-        _ => text(node, problems).map(Stands::Number),
+        _ => text(node, problems).map(ColumnCells::Number),
     }
 }
 
@@ -244,7 +245,7 @@ pub(super) fn read_columns(node: &Node, problems: &mut Vec<Problem>) -> Option<V
     let columns = f.map("columns");
     let is = f.node("is");
     let by = f.node("by").and_then(|n| read_row_keys(n, f.problems));
-    let of = |column: Text, cell: Option<usize>, is: Stands| {
+    let of = |column: Text, cell: Option<usize>, is: ColumnCells| {
         let (by, row) = (by.clone(), row.clone());
         Column { column, cell, by, row, is }
     };

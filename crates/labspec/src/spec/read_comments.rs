@@ -1,6 +1,6 @@
 //! Reads the claims and the definitions in comments.
 
-use super::comment::{CLAIM, Comment, DEFINITION, Definition, Remark, comments, labspec_comments};
+use super::comment::{CLAIM, ClaimComment, Comment, DEFINITION, Definition, comments, labspec_comments};
 use super::lesson::Lesson;
 use super::problem::{Mistake, Problem};
 use super::read_lab::{is_name, read_definition, read_verify};
@@ -31,7 +31,7 @@ pub(super) fn read_definitions(scan: &Scan, lesson: &mut Lesson) -> Vec<Definiti
 }
 
 /// Reads the claims in comments. Errors are added to the lesson.
-pub(super) fn read_remarks(scan: &Scan, lesson: &mut Lesson) -> Vec<Remark> {
+pub(super) fn read_claim_comments(scan: &Scan, lesson: &mut Lesson) -> Vec<ClaimComment> {
     let file = lesson.file.clone();
     let mut all = Vec::new();
     for Comment { span, inside, over } in comments(&file, scan, CLAIM) {
@@ -42,7 +42,7 @@ pub(super) fn read_remarks(scan: &Scan, lesson: &mut Lesson) -> Vec<Remark> {
         let text = file.slice(inside.clone());
         let node = read_json(text, &SourceMap::verbatim(inside), span.clone(), (scan, true), lesson);
         let found = node.and_then(|node| read_verify(&node, &mut lesson.problems));
-        all.extend(found.map(|verify| Remark { span, over, verify }));
+        all.extend(found.map(|verify| ClaimComment { span, over, verify }));
     }
     all
 }

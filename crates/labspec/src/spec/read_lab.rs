@@ -5,7 +5,7 @@ use super::fields::Fields;
 use super::format::{CAMERA, INTEGRATORS, LAB, Object, RUN, VERIFY};
 use super::integrators::{add_comparison, read_comparison};
 use super::lab::{BreakExpectation, Camera, Expect, Lab, Run, UsedObject, Verify, VerifyLab};
-use super::problem::{Meant, Misfit, Mistake, Problem};
+use super::problem::{FormatProblem, Meant, Mistake, Problem};
 use super::read_claim::{
     read_all_says, read_change, read_columns, read_exact, read_expectation, read_find, read_measures,
     read_over, read_press, read_sweep,
@@ -94,7 +94,7 @@ const DECISIVE_KEYS: [&str; 7] = ["model", "xml", "key", "stopAt", "setup", "con
 /// The key that is probably meant by an unknown key of an object: the page does not read it, even where the check does.
 fn misspelt_key(problems: &[Problem], object: &'static str) -> Option<&'static str> {
     problems.iter().find_map(|problem| match problem {
-        Problem::Format(Misfit { mistake: Mistake::UnknownKey { object: of, meant, .. }, .. })
+        Problem::Format(FormatProblem { mistake: Mistake::UnknownKey { object: of, meant, .. }, .. })
             if *of == object =>
         {
             match meant {
@@ -217,8 +217,8 @@ fn read_object(node: &Node, is_definition: bool, problems: &mut Vec<Problem>) ->
     };
     fields.finish();
     for problem in problems.iter_mut().skip(before) {
-        if let Problem::Format(misfit) = problem {
-            misfit.in_verify = true;
+        if let Problem::Format(problem) = problem {
+            problem.in_verify = true;
         }
     }
     Some(verify)

@@ -29,7 +29,7 @@ pub fn read_lesson_in(file: SourceFile, place: Option<(&Path, &Sources)>) -> Les
     let place = place.map(|(path, sources)| (path.to_path_buf(), sources.clone()));
     let mut lesson = read_at(file, None, place);
     let scan = std::mem::take(&mut lesson.scan);
-    lesson.remarks = read_comments::read_remarks(&scan, &mut lesson);
+    lesson.claim_comments = read_comments::read_claim_comments(&scan, &mut lesson);
     lesson.definitions = read_comments::read_definitions(&scan, &mut lesson);
     lesson.scan = scan;
     lesson.wholes = shared::resolve_uses(&lesson);
@@ -92,7 +92,7 @@ fn read_at(file: SourceFile, reference: Option<Range<usize>>, place: Option<(Pat
         quizzes: Vec::new(),
         widgets: Vec::new(),
         broken: Vec::new(),
-        remarks: Vec::new(),
+        claim_comments: Vec::new(),
         definitions: Vec::new(),
         wholes: Vec::new(),
         others: Vec::new(),

@@ -14,7 +14,7 @@ use crate::finding::Finding;
 use crate::language::Languages;
 use crate::rules;
 use crate::source::Text;
-use crate::spec::{Column, Stands};
+use crate::spec::{Column, ColumnCells};
 use labspec_expr::Value;
 use labspec_expr::dimension::Dimension;
 
@@ -85,7 +85,7 @@ pub(super) fn check_column(
 fn computing_heading(bound: &BoundVerify<'_>, claim: &Column) -> Option<Finding> {
     // For a cell that is given by its number, `column` is a text in its row.
     let number = match &claim.is {
-        Stands::Number(expr) if claim.cell.is_none() => Some((&claim.column, expr)),
+        ColumnCells::Number(expr) if claim.cell.is_none() => Some((&claim.column, expr)),
         _ => None,
     };
     let key = claim.by.as_ref().map(|(heading, list)| (heading, list));
@@ -114,10 +114,10 @@ fn computes(bound: &BoundVerify<'_>, expr: &str) -> bool {
 }
 
 /// The values of the sweep whose list a cell states, where the claim names a row only: the row tells the member.
-fn implied_values(checker: QuoteChecker<'_, '_>, is: &Stands) -> Option<Text> {
+fn implied_values(checker: QuoteChecker<'_, '_>, is: &ColumnCells) -> Option<Text> {
     let expr = match is {
-        Stands::Number(expr) => expr,
-        Stands::Words(words) => &words.first()?.1,
+        ColumnCells::Number(expr) => expr,
+        ColumnCells::Words(words) => &words.first()?.1,
     };
     // A list has a first number; the value of an expression that is a number has none.
     let first = checker.bound.find(&checker.outcomes.nominal, &part(expr, "[0]"), &mut Vec::new())?;
@@ -202,10 +202,10 @@ fn check_row_name(
     checker: QuoteChecker<'_, '_>,
     key: &Text,
     text: &Text,
-    is: &Stands,
+    is: &ColumnCells,
     findings: &mut Vec<Finding>,
 ) {
-    if let Stands::Number(expr) = is {
+    if let ColumnCells::Number(expr) = is {
         let nominal = &checker.outcomes.nominal;
         check_words_of_measure(checker.bound, nominal, key.as_str(), text.span(), expr, findings);
     }
@@ -215,14 +215,14 @@ fn check_row_name(
 fn check_cell(
     checker: QuoteChecker<'_, '_>,
     text: &Text,
-    is: &Stands,
+    is: &ColumnCells,
     unit: &Option<quote::Unit>,
     member: &str,
     findings: &mut Vec<Finding>,
 ) -> Quote {
     match is {
-        Stands::Words(words) => check_word_cell(checker, text, words, member, findings),
-        Stands::Number(expr) => {
+        ColumnCells::Words(words) => check_word_cell(checker, text, words, member, findings),
+        ColumnCells::Number(expr) => {
             let expr = part(expr, member);
             let unit = unit.clone().or_else(|| checker.rendered.unit_in_row(&text.span()));
             let places = vec![quote::QuotePlace {

@@ -9,7 +9,7 @@ use crate::finding::Finding;
 use crate::printable::counted;
 use crate::rules;
 use crate::source::Text;
-use crate::spec::{Question, Said, Verify};
+use crate::spec::{Question, QuotedClaim, Verify};
 use std::borrow::Cow;
 use std::ops::Range;
 
@@ -39,7 +39,7 @@ pub(super) fn check_quotes(
 /// Checks one line: one or several numbers, and conditions for its words.
 fn check_line(
     checker: QuoteChecker<'_, '_>,
-    quoted: &Said,
+    quoted: &QuotedClaim,
     question: Option<&Question>,
     findings: &mut Vec<Finding>,
 ) -> Vec<Quote> {

@@ -151,7 +151,7 @@ impl<'a> MeasuredLab<'a> {
     }
 
     /// Measures each stage, then the time between stages without the controller, then the controller.
-    fn laps(&self, plan: &Plan, times: &mut [Times]) {
+    fn stage_times(&self, plan: &Plan, times: &mut [Times]) {
         let (look, controlled) = (clock_cost(), self.programs.controller.is_some());
         for _ in 0..self.runs {
             let mut session = self.start(plan);
@@ -170,13 +170,15 @@ impl<'a> MeasuredLab<'a> {
                     });
                     programs += (step_start.saturating_sub(before) as f64 - look).max(0.0);
                 }
-                let laps = core::laps(&mut session.world.data);
-                let looking = laps.nothing.time as f64 / laps.nothing.runs.max(1) as f64;
-                let net = |lap: core::StageTime| (lap.time as f64 - lap.runs as f64 * looking).max(0.0);
-                let stages = plan.decisions().iter().map(|d| net(laps.stage_time(d.stage)));
+                let stage_times = core::stage_times(&mut session.world.data);
+                let looking = stage_times.nothing.time as f64 / stage_times.nothing.runs.max(1) as f64;
+                let net = |stage_time: core::StageTime| {
+                    (stage_time.time as f64 - stage_time.runs as f64 * looking).max(0.0)
+                };
+                let stages = plan.decisions().iter().map(|d| net(stage_times.stage_time(d.stage)));
                 // The clock was read for the controller as well.
                 let clock = if controlled { programs + 2.0 * look * steps as f64 } else { 0.0 };
-                let between = (net(laps.between) - clock).max(0.0);
+                let between = (net(stage_times.between) - clock).max(0.0);
                 for (times, time) in times.iter_mut().zip(stages.chain([between, programs])) {
                     times.add(i, time);
                 }
@@ -208,7 +210,7 @@ pub(super) fn measure(
     case.chunk = (CLOCK_INTERVAL * case.steps as f64 / whole.max(1.0)).clamp(1.0, 1000.0) as usize;
 
     let variants = variants(&case, &plan, readers);
-    let (times, laps) = measure_alternately(&case, &plan, &variants);
+    let (times, stage_times) = measure_alternately(&case, &plan, &variants);
     let per_step = |sum: f64| sum / case.steps as f64;
     let sums: Vec<[f64; 3]> = times.iter().map(|t| t.sums().map(per_step)).collect();
     let mean = |i: usize| sums.get(i).copied().unwrap_or_default();
@@ -216,10 +218,10 @@ pub(super) fn measure(
     // A variant that runs more stages is not faster; a negative difference is noise.
     let more = |i: usize| (mean(i)[1] - ns).max(0.0);
     // A stage takes slightly longer when timed separately, so only its share of the total is used.
-    let laps: Vec<f64> = laps.iter().map(|t| per_step(t.sums()[1])).collect();
-    let all: f64 = laps.iter().sum();
+    let stage_times: Vec<f64> = stage_times.iter().map(|t| per_step(t.sums()[1])).collect();
+    let all: f64 = stage_times.iter().sum();
     let cost = |i: usize, work: f64| {
-        let share = laps.get(i).copied().unwrap_or(0.0) / all.max(f64::MIN_POSITIVE);
+        let share = stage_times.get(i).copied().unwrap_or(0.0) / all.max(f64::MIN_POSITIVE);
         StageCost { ns: share * ns, share, work }
     };
     let stages: Vec<_> = plan.decisions().iter().map(|d| d.stage).collect();
@@ -254,17 +256,17 @@ fn variants(case: &MeasuredLab<'_>, plan: &Plan, readers: &[ExtraReader]) -> Vec
 /// Measures all variants in alternation: returns the times of each variant, and those of each stage of the plan.
 fn measure_alternately(case: &MeasuredLab<'_>, plan: &Plan, variants: &[Plan]) -> (Vec<Times>, Vec<Times>) {
     let mut times = vec![Times::default(); variants.len()];
-    let mut laps = vec![Times::default(); plan.decisions().len() + 2];
+    let mut stage_times = vec![Times::default(); plan.decisions().len() + 2];
     for _ in 0..REPEATS {
         for (variant, times) in variants.iter().zip(&mut times) {
             case.time(variant, times);
         }
-        case.laps(plan, &mut laps);
+        case.stage_times(plan, &mut stage_times);
         if interrupt::requested() {
             break;
         }
     }
-    (times, laps)
+    (times, stage_times)
 }
 
 /// Runs the lab once to determine the number of steps to measure, what happens in them, and the work of each stage.
@@ -291,8 +293,8 @@ fn observe_run(case: &mut MeasuredLab<'_>, plan: &Plan) -> Result<(StepCost, Vec
     }
     let steps = case.steps.max(1) as f64;
     let [in_reach, contacts, rows, iterations] = seen.map(|[sum, most]| [sum / steps, most]);
-    let laps = core::laps(&mut session.world.data);
-    let works = plan.decisions().iter().map(|d| laps.stage_time(d.stage).work as f64 / steps);
+    let stage_times = core::stage_times(&mut session.world.data);
+    let works = plan.decisions().iter().map(|d| stage_times.stage_time(d.stage).work as f64 / steps);
     let step = StepCost {
         steps: case.steps,
         work: (core::cost(&session.world.data) - before) as f64 / steps,

@@ -48,7 +48,7 @@ impl ParameterKind {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Margin {
     /// The kind of parameter.
-    pub knob: ParameterKind,
+    pub parameter: ParameterKind,
     /// The object to which it belongs.
     pub subject: String,
     /// Its unit; empty for a ratio, or if the unit depends on the joint.
@@ -89,7 +89,7 @@ type Read = dyn Fn(&Model) -> f64;
 
 /// A parameter that is raised.
 struct RaisedParameter {
-    knob: ParameterKind,
+    parameter: ParameterKind,
     subject: String,
     unit: &'static str,
     current: f64,
@@ -126,12 +126,12 @@ pub(super) fn margins(
     list.extend(some(ratios(&model, &base.touching), "pairs of bodies"));
     let mut found = Vec::new();
     for raised in list {
-        report_progress(&format!("margin: {} of {}", raised.knob.description(), raised.subject));
+        report_progress(&format!("margin: {} of {}", raised.parameter.description(), raised.subject));
         match search(case, &raised, length, work) {
             Ok(margin) => found.push(margin),
             Err(why) => skipped.push(format!(
                 "the margin of the {} of {}, {why}",
-                raised.knob.description(),
+                raised.parameter.description(),
                 raised.subject
             )),
         }
@@ -149,7 +149,7 @@ fn search(
 ) -> Result<Margin, &'static str> {
     let before = *work;
     let (mut runs, mut how, mut set) = (0, None, false);
-    let factor = if raised.knob == ParameterKind::Timestep { FINE_FACTOR } else { COARSE_FACTOR };
+    let factor = if raised.parameter == ParameterKind::Timestep { FINE_FACTOR } else { COARSE_FACTOR };
     let limit = search::largest(raised.most, factor, |x| {
         if *work - before > WORK || interrupt::requested() {
             return None;
@@ -183,14 +183,14 @@ fn search(
     });
     let bound = bound.filter(|b| b.broken.is_some()).and_then(|SearchLimit { fine, .. }| fine);
     Ok(Margin {
-        knob: raised.knob,
+        parameter: raised.parameter,
         subject: raised.subject.clone(),
         unit: raised.unit,
         current: raised.current,
         largest: limit.fine.map(|x| x * raised.current),
         breaks: limit.broken.map(|x| x * raised.current),
         how: how.filter(|_| limit.broken.is_some()),
-        bound: bound.map(|x| x * raised.current).filter(|_| raised.knob != ParameterKind::MassRatio),
+        bound: bound.map(|x| x * raised.current).filter(|_| raised.parameter != ParameterKind::MassRatio),
         runs,
         geoms: raised.geoms.clone(),
     })
@@ -218,13 +218,13 @@ fn run(
     // The factor is relative to the value after the lab is loaded.
     let current = (raised.read)(&model);
     (raised.apply)(&mut model, if current > 0.0 { target / current } else { x });
-    if raised.knob == ParameterKind::MassRatio {
+    if raised.parameter == ParameterKind::MassRatio {
         // Recomputes the fields that depend on masses; if an inertia is not positive, they remain unchanged.
         let mut data = Data::new(&model);
         let _ = set_const(&mut model, &mut data);
     }
     let case = case.with_model(&model);
-    let free = raised.knob != ParameterKind::MassRatio;
+    let free = raised.parameter != ParameterKind::MassRatio;
     let change = |session: &mut Session<'_>| {
         let set = (raised.read)(&session.world.model);
         if free && !same(&session.world.model) && set > 0.0 {
@@ -239,7 +239,7 @@ fn run(
 fn timestep(m: &Model, length: f64) -> RaisedParameter {
     let current = m.opt.timestep;
     RaisedParameter {
-        knob: ParameterKind::Timestep,
+        parameter: ParameterKind::Timestep,
         subject: "the lab".into(),
         unit: "s",
         current,
@@ -274,7 +274,7 @@ fn gains(m: &Model) -> Vec<RaisedParameter> {
         let scaled = servo_gains(&twice, a).map(|g| g[bias - 1]);
         if gain > 0.0 && scaled == Some(2.0 * gain) {
             list.push(RaisedParameter {
-                knob: ParameterKind::Gain,
+                parameter: ParameterKind::Gain,
                 subject: named(&m.names.actuator, a, "the servo"),
                 unit: "",
                 current: gain,
@@ -294,7 +294,7 @@ fn stiffnesses(m: &Model) -> Vec<RaisedParameter> {
     if !m.opt.disabled(disable::SPRING) {
         for j in (0..m.njnt).filter(|&j| m.jnt_stiffness.get(j).is_some_and(|&k| k > 0.0)) {
             list.push(RaisedParameter {
-                knob: ParameterKind::Stiffness,
+                parameter: ParameterKind::Stiffness,
                 subject: named(&m.names.joint, j, "joint"),
                 unit: "",
                 current: m.jnt_stiffness[j],
@@ -309,7 +309,7 @@ fn stiffnesses(m: &Model) -> Vec<RaisedParameter> {
         }
         for t in (0..m.ntendon).filter(|&t| m.tendon_stiffness.get(t).is_some_and(|&k| k > 0.0)) {
             list.push(RaisedParameter {
-                knob: ParameterKind::Stiffness,
+                parameter: ParameterKind::Stiffness,
                 subject: named(&m.names.tendon, t, "tendon"),
                 unit: "N/m",
                 current: m.tendon_stiffness[t],
@@ -349,7 +349,7 @@ fn contacts(m: &Model, touching: &[[usize; 2]]) -> Option<RaisedParameter> {
     };
     let current = read(m);
     (current > 0.0).then(|| RaisedParameter {
-        knob: ParameterKind::Stiffness,
+        parameter: ParameterKind::Stiffness,
         subject: "all contacts".into(),
         unit: "1/s²",
         current,
@@ -378,7 +378,7 @@ fn ratios(m: &Model, touching: &[[usize; 2]]) -> Vec<RaisedParameter> {
     for [a, b] in pairs.into_iter().filter(|p| p.iter().all(moves)) {
         for [heavy, light] in [[a, b], [b, a]] {
             list.push(RaisedParameter {
-                knob: ParameterKind::MassRatio,
+                parameter: ParameterKind::MassRatio,
                 subject: format!("{} to {}", body_name(m, heavy), body_name(m, light)),
                 unit: "",
                 current: mass(heavy) / mass(light),

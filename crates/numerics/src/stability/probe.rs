@@ -179,7 +179,7 @@ fn empty_report(length: f64, window: f64, skipped_pairs: usize) -> StressReport 
         sensitivity: Sensitivity {
             length: window,
             distance: 0.0,
-            parting: None,
+            divergence: None,
             exponent: None,
             horizons: Vec::new(),
         },

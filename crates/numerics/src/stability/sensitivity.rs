@@ -69,7 +69,7 @@ pub struct Sensitivity {
     /// The distance of the other start.
     pub distance: f64,
     /// The growth factor; `None` if the lab has no degrees of freedom or a run does not reach its end.
-    pub parting: Option<DivergenceOfStarts>,
+    pub divergence: Option<DivergenceOfStarts>,
     /// The exponent; `None` if the difference does not grow exponentially.
     pub exponent: Option<Exponent>,
     /// The readouts.
@@ -84,7 +84,7 @@ pub(super) fn sensitivity(case: &StressCase<'_>, length: f64, work: &mut u64) ->
     let least = |list: &[f64]| list.iter().copied().fold(f64::INFINITY, f64::min);
     let most = |list: &[f64]| list.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let ends: Vec<f64> = all.iter().filter_map(|list| list.last()).map(|(_, sum)| *sum).collect();
-    let parting = (whole && !ends.is_empty())
+    let divergence = (whole && !ends.is_empty())
         .then(|| DivergenceOfStarts { low: least(&ends).exp(), high: most(&ends).exp() });
     let slopes: Option<Vec<f64>> = all.iter().map(|list| slope(list)).collect();
     let exponent = slopes.filter(|_| whole).map(|list| Exponent {
@@ -93,7 +93,13 @@ pub(super) fn sensitivity(case: &StressCase<'_>, length: f64, work: &mut u64) ->
         high: most(&list),
         directions: list.len(),
     });
-    Sensitivity { length, distance: PERTURBATION, parting, exponent, horizons: horizons(case, length, work) }
+    Sensitivity {
+        length,
+        distance: PERTURBATION,
+        divergence,
+        exponent,
+        horizons: horizons(case, length, work),
+    }
 }
 
 /// The slope of a logarithm that grows linearly from the start, 1/s.

@@ -21,10 +21,10 @@ pub fn clock<S: Scope>(d: &mut Data<S>, clock: fn() -> u64) {
 }
 
 /// The time of each stage since [`clock`] or since the last call of this function. Zero without a clock.
-pub fn laps<S: Scope>(d: &mut Data<S>) -> StageTimes {
+pub fn stage_times<S: Scope>(d: &mut Data<S>) -> StageTimes {
     let Some(watch) = &mut d.scratch.watch else { return StageTimes::default() };
     watch.ended = None;
-    std::mem::take(&mut watch.laps)
+    std::mem::take(&mut watch.stage_times)
 }
 
 /// Limits the further work of the engine. Results after the limit is exceeded are not valid: see [`exhausted`].

@@ -7,6 +7,7 @@ use std::ops::Range;
 use super::hfield::HField;
 use super::mesh::{self, AssetProblem, CompiledMesh, MeshBody, Raw};
 use super::skin::{self, Bone, Skin};
+use crate::api::files::{Files, MAX_FILE};
 use crate::kinds::geom;
 use crate::math::{IDENTITY, norm};
 use crate::mjcf::asset::mesh::build::{self, MeshOptions};
@@ -16,7 +17,6 @@ use crate::mjcf::names::{NameTable, WORLD};
 use crate::mjcf::rules::{self, Rule};
 use crate::mjcf::spec::{BodySpec, PairSpec};
 use crate::mjcf::text::diagnostic::{Diagnostics, shorten_name};
-use crate::api::files::{Files, MAX_FILE};
 use crate::mjcf::text::load;
 use crate::mjcf::text::tree::{ElementNode, ElementTree, name};
 

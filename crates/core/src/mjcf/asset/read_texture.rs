@@ -1,9 +1,9 @@
 //! `texture`: the declarations of textures, for views. Their files are not read here.
 
+use crate::api::files;
 use crate::mjcf::classes::Props;
 use crate::mjcf::context::Context;
 use crate::mjcf::gather::listed;
-use crate::api::files;
 use crate::mjcf::text::tree::{ElementNode, name};
 use crate::model::texture::Texture;
 

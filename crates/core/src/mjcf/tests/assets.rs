@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::mjcf::compile_with;
 use crate::api::files::Files;
+use crate::mjcf::compile_with;
 use crate::model::Model;
 use crate::step::step;
 use crate::step::workspace::Workspace;

@@ -10,12 +10,12 @@ use std::ops::Range;
 use std::rc::Rc;
 
 use super::diagnostic::{Diagnostics, shorten_name};
-use crate::api::files::{FileProblem, Files, folder_of, normalize_path};
 use super::patch;
-use crate::api::patch::{Patch, Refusal};
 use super::scan;
 use super::tree::{self, ElementTree};
 use super::xml::{self, XmlElement};
+use crate::api::files::{FileProblem, Files, folder_of, normalize_path};
+use crate::api::patch::{Patch, Refusal};
 use crate::mjcf::rules;
 use crate::mjcf::{MAX_TEXT, names};
 

@@ -2,7 +2,7 @@
 
 use super::describe::{default, takes};
 use super::scan::{CursorSpot, JsonScan, JsonScope, ScanStep, scan};
-use super::{Family, INTEGRATORS, Key, LAB, Named, Object, QUIZ, Together, Type, Word};
+use super::{Family, INTEGRATORS, Key, KeyRule, LAB, Named, Object, QUIZ, Type, Word};
 use crate::json::encode;
 use std::borrow::Cow;
 use std::ops::Range;
@@ -188,10 +188,10 @@ fn allowed(objects: &[&'static Object], scope: &JsonScope) -> Vec<&'static Key> 
         let excluded = |name: &str| {
             let other =
                 |names: &[&str]| names.contains(&name) && names.iter().any(|n| *n != name && is_present(n));
-            object.together.iter().any(|rule| match rule {
-                Together::ExactlyOne(names) => other(names),
-                Together::AtMostOne(names) | Together::FirstCounts(names) => other(names.as_slice()),
-                Together::AtLeastOne(_) | Together::OneAdvised(_) => false,
+            object.key_rules.iter().any(|rule| match rule {
+                KeyRule::ExactlyOne(names) => other(names),
+                KeyRule::AtMostOne(names) | KeyRule::FirstCounts(names) => other(names.as_slice()),
+                KeyRule::AtLeastOne(_) | KeyRule::OneAdvised(_) => false,
             })
         };
         for key in object.keys {

@@ -1,7 +1,7 @@
 //! Sliders, selects and buttons.
 
 use super::plot::DIGITS;
-use super::{Absent, Family, Key, Object, PairHalf, Together, Type, Word, key};
+use super::{Absent, Family, Key, KeyRule, Object, PairHalf, Type, Word, key};
 use crate::spec::CodeForm;
 use labspec_finding::docs;
 
@@ -58,8 +58,8 @@ const INIT: Key = key(
 const RESET: Key = key("reset", Type::Flag, "whether a change also resets the simulation", "true");
 
 /// The rules for the keys of a slider and of a select.
-const EFFECT: &[Together] =
-    &[Together::AtLeastOne(&["set", "apply", "param"]), Together::FirstCounts(&["set", "apply"])];
+const EFFECT: &[KeyRule] =
+    &[KeyRule::AtLeastOne(&["set", "apply", "param"]), KeyRule::FirstCounts(&["set", "apply"])];
 
 /// A slider.
 pub static SLIDER: Object = Object {
@@ -81,7 +81,7 @@ pub static SLIDER: Object = Object {
             "0.01",
         )
         .positive()
-        .or(Absent::Said("a hundredth of the range")),
+        .or(Absent::Described("a hundredth of the range")),
         key("value", Type::Number, "the initial value, between the two ends", "-9.81")
             .must("without it the slider starts as NaN, and the page assigns NaN"),
         DIGITS,
@@ -91,7 +91,7 @@ pub static SLIDER: Object = Object {
         INIT,
         RESET,
     ],
-    together: EFFECT,
+    key_rules: EFFECT,
 };
 
 static CHOICE_PARTS: [PairHalf; 2] = [
@@ -126,7 +126,7 @@ pub static SELECT: Object = Object {
         INIT,
         RESET,
     ],
-    together: EFFECT,
+    key_rules: EFFECT,
 };
 
 /// A button.
@@ -147,5 +147,5 @@ pub static BUTTON: Object = Object {
         )
         .must("without statements the button does nothing"),
     ],
-    together: &[],
+    key_rules: &[],
 };

@@ -73,7 +73,7 @@ fn limits(limits: &Limits) -> String {
 /// The default of a key, as JSON. `None` if it has none, or if the default depends on other values.
 pub(super) fn default(key: &Key) -> Option<Value> {
     Some(match key.absent {
-        Absent::Nothing | Absent::Said(_) => return None,
+        Absent::Nothing | Absent::Described(_) => return None,
         Absent::Number(x) => number(x),
         Absent::Text(text) => text.into(),
         Absent::False => false.into(),

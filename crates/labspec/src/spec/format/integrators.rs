@@ -1,6 +1,6 @@
 //! The lab that compares integrators: the keys of a lab, and those of the comparison.
 
-use super::{Absent, Key, LAB, Object, Together, Type, Word, key};
+use super::{Absent, Key, KeyRule, LAB, Object, Type, Word, key};
 use labspec_finding::docs;
 
 /// The integrators that can be compared: those of MuJoCo that a page can run.
@@ -19,11 +19,11 @@ static NAME: Type = Type::Words(&INTEGRATOR_NAMES);
 /// The keys of the comparison.
 const OF_COMPARISON: [Key; 2] = [
     key("integrators", Type::List(&NAME), "the integrators, in display order", r#"["Euler", "RK4"]"#)
-        .or(Absent::Said("all four")),
+        .or(Absent::Described("all four")),
     key("timestep", Type::Number, "the timestep of all runs", "0.01")
         .unit("s")
         .positive()
-        .or(Absent::Said("the timestep of the model")),
+        .or(Absent::Described("the timestep of the model")),
 ];
 
 const COUNT: usize = LAB.keys.len() + OF_COMPARISON.len();
@@ -49,5 +49,5 @@ pub static INTEGRATORS: Object = Object {
     tag: None,
     minimal: r#"{"model": "fall", "integrators": ["Euler", "RK4"]}"#,
     keys: &KEYS,
-    together: &[Together::ExactlyOne(&["model", "xml"])],
+    key_rules: &[KeyRule::ExactlyOne(&["model", "xml"])],
 };

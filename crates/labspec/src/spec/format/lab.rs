@@ -1,7 +1,7 @@
 //! The lab, its camera, and the order of events.
 
 use super::lint::lint_key;
-use super::{Absent, CONTROL, Key, LISTING, Named, Object, PLOT, READOUT, Together, Type, VERIFY, Word, key};
+use super::{Absent, CONTROL, Key, KeyRule, LISTING, Named, Object, PLOT, READOUT, Type, VERIFY, Word, key};
 use crate::spec::CodeForm;
 use labspec_finding::docs;
 
@@ -76,7 +76,7 @@ pub static LAB: Object = Object {
             "0",
         )
         .at_least(0.0)
-        .or(Absent::Said("the initial state of the model")),
+        .or(Absent::Described("the initial state of the model")),
         key("title", Type::Text, "the title of the lab", r#""A fall""#).or(Absent::Text("")),
         key("kind", Type::Text, "the word above the title", r#""Experiment""#).or(Absent::Text("Lab")),
         key(
@@ -138,7 +138,7 @@ pub static LAB: Object = Object {
         )
         .unit("s")
         .positive()
-        .or(Absent::Said("the lab never pauses")),
+        .or(Absent::Described("the lab never pauses")),
         key(
             "setup",
             Type::Code(CodeForm::Statements),
@@ -180,9 +180,9 @@ pub static LAB: Object = Object {
             "the intended result of the lab; a run with this result is not reported; with `breaks` it is an error if no run has it",
             r#""breaks""#,
         )
-        .or(Absent::Said("every run must go well")),
+        .or(Absent::Described("every run must go well")),
     ],
-    together: &[Together::ExactlyOne(&["model", "xml"])],
+    key_rules: &[KeyRule::ExactlyOne(&["model", "xml"])],
 };
 
 /// The view of a lab.
@@ -203,12 +203,12 @@ pub static CAMERA: Object = Object {
             .or(Absent::Number(25.0)),
         key("distance", Type::Number, "how far the camera is from its target", "2")
             .unit("m")
-            .or(Absent::Said("1.9 times the extent of the model")),
+            .or(Absent::Described("1.9 times the extent of the model")),
         key("target", Type::Numbers(3), "the point that the camera looks at: x, y, z", "[0, 0, 0.4]")
             .unit("m")
-            .or(Absent::Said("the centre of the model")),
+            .or(Absent::Described("the centre of the model")),
     ],
-    together: &[],
+    key_rules: &[],
 };
 
 /// The order of events in a lab.

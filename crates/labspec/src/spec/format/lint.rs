@@ -35,5 +35,5 @@ pub static LINT: Object = Object {
         )
         .must("a later reader of the lesson needs the reason"),
     ],
-    together: &[],
+    key_rules: &[],
 };

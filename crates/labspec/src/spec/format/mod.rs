@@ -55,12 +55,12 @@ pub struct Object {
     /// The keys, in reading order.
     pub keys: &'static [Key],
     /// Rules for combinations of its keys.
-    pub together: &'static [Together],
+    pub key_rules: &'static [KeyRule],
 }
 
 /// A rule for a combination of keys.
 #[derive(Clone, Copy, Debug)]
-pub enum Together {
+pub enum KeyRule {
     /// Exactly one of these must be present.
     ExactlyOne(&'static [&'static str]),
     /// At least one of these must be present.
@@ -219,7 +219,7 @@ pub enum Absent {
     /// An empty list, or an empty object.
     Empty,
     /// A default that depends on other values, described in words.
-    Said(&'static str),
+    Described(&'static str),
 }
 
 /// The allowed range of a number.

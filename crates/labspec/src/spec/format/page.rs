@@ -2,7 +2,7 @@
 
 use super::describe::{default, takes};
 use super::{Absent, CONTROL, EVENTS, FIRST, Family, Key, LAB, Need, OBJECTS, OVERLAYS, Object, QUESTION};
-use super::{Together, Type, Word};
+use super::{KeyRule, Type, Word};
 use crate::printable::capital;
 use std::fmt::Write;
 
@@ -43,13 +43,13 @@ fn family(text: &mut String, family: &Family) {
 fn section(text: &mut String, object: &Object) {
     let level = if object.tag.is_some() { "###" } else { "##" };
     let _ = write!(text, "\n{level} {}\n\n{}", heading(object), object.doc);
-    for rule in object.together {
+    for rule in object.key_rules {
         let (count, names, rule) = match rule {
-            Together::ExactlyOne(names) => ("Exactly one", *names, "must be present"),
-            Together::AtLeastOne(names) => ("At least one", *names, "must be present"),
-            Together::OneAdvised(names) => ("At least one", *names, "should be present"),
-            Together::AtMostOne(names) => ("Only one", names.as_slice(), "can be present"),
-            Together::FirstCounts(names) => ("Only the first", names.as_slice(), "counts"),
+            KeyRule::ExactlyOne(names) => ("Exactly one", *names, "must be present"),
+            KeyRule::AtLeastOne(names) => ("At least one", *names, "must be present"),
+            KeyRule::OneAdvised(names) => ("At least one", *names, "should be present"),
+            KeyRule::AtMostOne(names) => ("Only one", names.as_slice(), "can be present"),
+            KeyRule::FirstCounts(names) => ("Only the first", names.as_slice(), "counts"),
         };
         let names: Vec<String> = names.iter().map(|n| format!("`{n}`")).collect();
         let _ = write!(text, " {count} of {} {rule}.", names.join(", "));
@@ -99,7 +99,7 @@ fn describe_default(key: &Key) -> String {
         return "an error".into();
     }
     match (key.absent, key.need) {
-        (Absent::Said(words), _) => words.into(),
+        (Absent::Described(words), _) => words.into(),
         (_, Need::Advised(_)) => "a warning".into(),
         (Absent::Text(""), _) => "–".into(),
         _ => default(key).map_or("–".into(), |value| format!("`{}`", spaced(&value))),

@@ -38,9 +38,9 @@ pub static PLOT: Object = Object {
             .positive()
             .or(Absent::Number(5.0)),
         key("ymin", Type::Number, "the lower end of the vertical axis; below `ymax`", "0")
-            .or(Absent::Said("follows the curves")),
+            .or(Absent::Described("follows the curves")),
         key("ymax", Type::Number, "the upper end of the vertical axis", "2")
-            .or(Absent::Said("follows the curves")),
+            .or(Absent::Described("follows the curves")),
         key("height", Type::Number, "the height of the plot", "180")
             .unit("px")
             .positive()
@@ -53,7 +53,7 @@ pub static PLOT: Object = Object {
         )
         .or(Absent::Empty),
     ],
-    together: &[],
+    key_rules: &[],
 };
 
 /// A curve.
@@ -80,7 +80,7 @@ pub static TRACE: Object = Object {
         .must("it is the expression of the curve"),
         key("dash", Type::Flag, "whether the curve is dashed", "true"),
     ],
-    together: &[],
+    key_rules: &[],
 };
 
 /// A horizontal line of a plot.
@@ -95,7 +95,7 @@ pub static REF_LINE: Object = Object {
             .must("it is the height of the line"),
         key("label", Type::Text, "the text beside it", r#""start""#),
     ],
-    together: &[],
+    key_rules: &[],
 };
 
 /// A value displayed as text.
@@ -117,5 +117,5 @@ pub static READOUT: Object = Object {
         .must("it is the displayed expression"),
         DIGITS,
     ],
-    together: &[],
+    key_rules: &[],
 };

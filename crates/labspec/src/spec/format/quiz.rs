@@ -2,7 +2,7 @@
 
 use super::lab::verify_key;
 use super::lint::lint_key;
-use super::{Absent, Family, Key, LAB, Object, Together, Type, Word, key};
+use super::{Absent, Family, Key, KeyRule, LAB, Object, Type, Word, key};
 use labspec_finding::docs;
 
 static KINDS: [Word; 8] = [
@@ -51,7 +51,7 @@ pub static QUIZ: Object = Object {
         .must("a quiz is a list of questions"),
         lint_key(),
     ],
-    together: &[],
+    key_rules: &[],
 };
 
 const KIND: Key = key("kind", Type::Words(&KINDS), "how the question is answered", r#""mcq""#);
@@ -93,7 +93,7 @@ const ATTEMPTS: Key =
     key("attempts", Type::Whole, "how often the student can try", "2").at_least(1.0).or(Absent::Number(1.0));
 
 /// A key is written openly or as a hash.
-const ONE_KEY: &[Together] = &[Together::ExactlyOne(&["answer", "hash"])];
+const ONE_KEY: &[KeyRule] = &[KeyRule::ExactlyOne(&["answer", "hash"])];
 
 /// The hash of an answer.
 pub static HASH: Object = Object {
@@ -115,7 +115,7 @@ pub static HASH: Object = Object {
         )
         .must("it is the hash of the answer"),
     ],
-    together: &[],
+    key_rules: &[],
 };
 
 /// A question with options.
@@ -137,7 +137,7 @@ pub static MCQ: Object = Object {
         verify_key(),
         lint_key(),
     ],
-    together: ONE_KEY,
+    key_rules: ONE_KEY,
 };
 
 /// A question about an error.
@@ -161,7 +161,7 @@ pub static DEBUG: Object = Object {
         verify_key(),
         lint_key(),
     ],
-    together: ONE_KEY,
+    key_rules: ONE_KEY,
 };
 
 /// A question whose answer a simulation shows.
@@ -189,7 +189,7 @@ pub static PREDICT: Object = Object {
         verify_key(),
         lint_key(),
     ],
-    together: ONE_KEY,
+    key_rules: ONE_KEY,
 };
 
 /// A question with several correct options.
@@ -217,7 +217,7 @@ pub static MULTIPLE: Object = Object {
         verify_key(),
         lint_key(),
     ],
-    together: ONE_KEY,
+    key_rules: ONE_KEY,
 };
 
 /// A statement that is true or false.
@@ -240,7 +240,7 @@ pub static TRUEFALSE: Object = Object {
         verify_key(),
         lint_key(),
     ],
-    together: ONE_KEY,
+    key_rules: ONE_KEY,
 };
 
 /// The default tolerance of a numeric answer, relative to the answer.
@@ -267,13 +267,13 @@ pub static NUMERIC: Object = Object {
             "0.1",
         )
         .at_least(0.0)
-        .or(Absent::Said("2 % of the answer; an answer of 0 needs a tolerance")),
+        .or(Absent::Described("2 % of the answer; an answer of 0 needs a tolerance")),
         key("unit", Type::Text, "the unit, displayed after the box", r#""m/s""#),
-        Key { absent: Absent::Said("no limit"), ..ATTEMPTS },
+        Key { absent: Absent::Described("no limit"), ..ATTEMPTS },
         verify_key(),
         lint_key(),
     ],
-    together: &[],
+    key_rules: &[],
 };
 
 const REFERENCE: Key = key(
@@ -299,7 +299,7 @@ pub static OPEN: Object = Object {
         verify_key(),
         lint_key(),
     ],
-    together: &[],
+    key_rules: &[],
 };
 
 /// A question with a program as the answer.
@@ -318,5 +318,5 @@ pub static CODE: Object = Object {
         verify_key(),
         lint_key(),
     ],
-    together: &[],
+    key_rules: &[],
 };

@@ -2,7 +2,7 @@
 
 use super::describe::{default, number};
 use super::{CONTROL, QUESTION};
-use super::{Family, INTEGRATORS, Key, LAB, Limits, OBJECTS, Object, PairHalf, QUIZ, Together, Type};
+use super::{Family, INTEGRATORS, Key, KeyRule, LAB, Limits, OBJECTS, Object, PairHalf, QUIZ, Type};
 use crate::json::to_value;
 use serde::{Serialize, Serializer};
 use serde_json::{Map, Value};
@@ -151,21 +151,21 @@ fn reach_type(ty: &Type, used: &mut Vec<&'static str>) {
 
 fn definition(object: &Object) -> SchemaNode {
     let required: Vec<&str> = object.keys.iter().filter(|k| k.required()).map(|k| k.name).collect();
-    let together: Vec<SchemaNode> = object.together.iter().filter_map(rule).collect();
+    let rules: Vec<SchemaNode> = object.key_rules.iter().filter_map(rule).collect();
     SchemaNode::from(SchemaKeyword::Description(object.doc.into()))
         .and(closed(object.keys.iter().map(|k| (k.name, property(object, k)))).0)
         .and((!required.is_empty()).then_some(SchemaKeyword::Required(required)))
-        .and((!together.is_empty()).then_some(SchemaKeyword::AllOf(together)))
+        .and((!rules.is_empty()).then_some(SchemaKeyword::AllOf(rules)))
 }
 
 /// A rule for a combination of keys. A schema can express only errors, so the rules with warnings are left out.
-fn rule(rule: &Together) -> Option<SchemaNode> {
+fn rule(rule: &KeyRule) -> Option<SchemaNode> {
     let each = |names: &[&'static str]| names.iter().map(|n| required(&[n])).collect();
     Some(SchemaNode::from(match rule {
-        Together::ExactlyOne(names) => SchemaKeyword::OneOf(each(names)),
-        Together::AtLeastOne(names) => SchemaKeyword::AnyOf(each(names)),
-        Together::AtMostOne(names) => SchemaKeyword::Not(required(&names[..])),
-        Together::OneAdvised(_) | Together::FirstCounts(_) => return None,
+        KeyRule::ExactlyOne(names) => SchemaKeyword::OneOf(each(names)),
+        KeyRule::AtLeastOne(names) => SchemaKeyword::AnyOf(each(names)),
+        KeyRule::AtMostOne(names) => SchemaKeyword::Not(required(&names[..])),
+        KeyRule::OneAdvised(_) | KeyRule::FirstCounts(_) => return None,
     }))
 }
 

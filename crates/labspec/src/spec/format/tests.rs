@@ -38,11 +38,11 @@ fn holding(ty: &Type, object: &Object, value: &Value) -> Option<Value> {
 fn with_key(object: &Object, name: &str, value: Value) -> Value {
     let mut whole = parse(object.minimal);
     let members = whole.as_object_mut().unwrap();
-    for rule in object.together {
+    for rule in object.key_rules {
         let names: &[&str] = match rule {
-            Together::ExactlyOne(names) => names,
-            Together::AtMostOne(names) | Together::FirstCounts(names) => names.as_slice(),
-            Together::AtLeastOne(_) | Together::OneAdvised(_) => &[],
+            KeyRule::ExactlyOne(names) => names,
+            KeyRule::AtMostOne(names) | KeyRule::FirstCounts(names) => names.as_slice(),
+            KeyRule::AtLeastOne(_) | KeyRule::OneAdvised(_) => &[],
         };
         if names.contains(&name) {
             names.iter().for_each(|n| drop(members.remove(*n)));
@@ -389,7 +389,7 @@ fn what_counts_where_a_key_is_left_out_is_what_is_declared() {
     let quiz = load(&QUIZ, &quiz).quizzes.pop().unwrap();
     assert_eq!(quiz.title(), "Knowledge check");
     let says = |object: &Object, key: &str, what: String| match object.key(key).unwrap().absent {
-        Absent::Said(words) => assert!(words.contains(&what), "{words}"),
+        Absent::Described(words) => assert!(words.contains(&what), "{words}"),
         other => panic!("{other:?}"),
     };
     says(&NUMERIC, "tol", format!("{} %", 100.0 * TOLERANCE));
@@ -420,13 +420,13 @@ fn declared_defaults_are_of_their_type() {
 #[test]
 fn what_keys_ask_of_each_other_is_checked() {
     for object in OBJECTS {
-        for rule in object.together {
+        for rule in object.key_rules {
             let (names, without, all): (&[&str], _, _) = match rule {
-                Together::ExactlyOne(names) => (names, Some(true), Some(true)),
-                Together::AtLeastOne(names) => (names, Some(true), None),
-                Together::OneAdvised(names) => (names, Some(false), None),
-                Together::AtMostOne(names) => (names.as_slice(), None, Some(true)),
-                Together::FirstCounts(names) => (names.as_slice(), None, Some(false)),
+                KeyRule::ExactlyOne(names) => (names, Some(true), Some(true)),
+                KeyRule::AtLeastOne(names) => (names, Some(true), None),
+                KeyRule::OneAdvised(names) => (names, Some(false), None),
+                KeyRule::AtMostOne(names) => (names.as_slice(), None, Some(true)),
+                KeyRule::FirstCounts(names) => (names.as_slice(), None, Some(false)),
             };
             let mut whole = parse(object.minimal);
             names.iter().for_each(|name| drop(whole.as_object_mut().unwrap().remove(*name)));

@@ -1,6 +1,6 @@
 //! The checkable claims: runs, measures over them, and conditions that must hold.
 
-use super::{Absent, LAB, Map, Object, PairHalf, Together, Type, Word, key};
+use super::{Absent, KeyRule, LAB, Map, Object, PairHalf, Type, Word, key};
 use crate::spec::CodeForm;
 use labspec_finding::docs;
 
@@ -74,7 +74,7 @@ pub static VERIFY: Object = Object {
             "the lab that runs: `#2` is the second lab of the lesson, `#quiz-id.1` the sim of the first question of a quiz, `other.md#2` a lab of another lesson; or a lab written here",
             r##""#1""##,
         )
-        .or(Absent::Said("the question's own `sim`, or the lab that carries this object")),
+        .or(Absent::Described("the question's own `sim`, or the lab that carries this object")),
         key(
             "use",
             Type::Text,
@@ -87,7 +87,7 @@ pub static VERIFY: Object = Object {
             "runs by name; measures are read as `run.measure`, or by their own name where there is one run; a name that lists several, `light, heavy`, is a run for each value of its `sweep`",
             r#"{"earth": {"set": {"gravity": -9.81}, "until": 1}}"#,
         )
-        .or(Absent::Said("one run of the lab as it stands")),
+        .or(Absent::Described("one run of the lab as it stands")),
         key(
             "measure",
             Type::Map(&MEASURES),
@@ -151,7 +151,7 @@ pub static VERIFY: Object = Object {
         )
         .or(Absent::Empty),
     ],
-    together: &[Together::OneAdvised(&["options", "value", "says", "table", "exact"])],
+    key_rules: &[KeyRule::OneAdvised(&["options", "value", "says", "table", "exact"])],
 };
 
 static EXPECTED: [Word; 2] = [
@@ -178,7 +178,7 @@ pub static RUN: Object = Object {
             "the lab of this run, written as the `lab` of the object; a measure without a meaning in it is skipped",
             r##""#1""##,
         )
-        .or(Absent::Said("the lab of the object")),
+        .or(Absent::Described("the lab of the object")),
         key(
             "model",
             Type::Map(&CHANGES),
@@ -187,14 +187,14 @@ pub static RUN: Object = Object {
         )
         .or(Absent::Empty),
         key("key", Type::Scalar, "the keyframe to start from, by its name or its index", "0")
-            .or(Absent::Said("that of the lab")),
+            .or(Absent::Described("that of the lab")),
         key(
             "controller",
             Type::Code(CodeForm::Statements),
             "runs before every step instead of the `controller` of the lab; empty for none",
             r#""data.qfrc_applied[0] = -data.qvel[0]""#,
         )
-        .or(Absent::Said("that of the lab")),
+        .or(Absent::Described("that of the lab")),
         key(
             "set",
             Type::Map(&SETTINGS),
@@ -218,7 +218,7 @@ pub static RUN: Object = Object {
         key("until", Type::Number, "the length of the run", "1")
             .unit("s")
             .positive()
-            .or(Absent::Said("`steps`, else the `stopAt` of the lab, else 2 s")),
+            .or(Absent::Described("`steps`, else the `stopAt` of the lab, else 2 s")),
         key("steps", Type::Whole, "the length of the run, in steps", "500").positive(),
         key(
             "stop",
@@ -226,7 +226,7 @@ pub static RUN: Object = Object {
             "the run ends at the first sample where this holds, and at the latest after `until` or `steps`",
             r#""data.time >= 1""#,
         )
-        .or(Absent::Said("the run goes on to its end")),
+        .or(Absent::Described("the run goes on to its end")),
         key(
             "sweep",
             Type::Map(&SWEPT),
@@ -234,9 +234,9 @@ pub static RUN: Object = Object {
             r#"{"option timestep": [0.002, 0.005, 0.01]}"#,
         ),
         key("expect", Type::Words(&EXPECTED), "the intended result of the run", r#""breaks""#)
-            .or(Absent::Said("the run must go well")),
+            .or(Absent::Described("the run must go well")),
     ],
-    together: &[Together::AtMostOne(&["until", "steps"])],
+    key_rules: &[KeyRule::AtMostOne(&["until", "steps"])],
 };
 
 /// A column of a table.
@@ -273,7 +273,7 @@ pub static COLUMN: Object = Object {
             r#""fall.touch""#,
         ),
     ],
-    together: &[Together::ExactlyOne(&["by", "row"])],
+    key_rules: &[KeyRule::ExactlyOne(&["by", "row"])],
 };
 
 /// A search.
@@ -296,7 +296,7 @@ pub static FIND: Object = Object {
         key("to", Type::Number, "the largest value to test", "0.05")
             .must("without it the range of the search is unknown"),
         key("run", Type::Text, "the run to test it in", r#""run""#)
-            .or(Absent::Said("the only run")),
+            .or(Absent::Described("the only run")),
         key(
             "while",
             Type::Code(CodeForm::Expression),
@@ -308,7 +308,7 @@ pub static FIND: Object = Object {
             .positive()
             .must("without it the accuracy of the search is unknown"),
     ],
-    together: &[Together::ExactlyOne(&["largest", "smallest"])],
+    key_rules: &[KeyRule::ExactlyOne(&["largest", "smallest"])],
 };
 
 /// Equidistant values.
@@ -329,9 +329,9 @@ pub static SPAN: Object = Object {
             "draws the values at random between the two ends, the same for the same seed on every machine",
             "1",
         )
-        .or(Absent::Said("the values have equal distances")),
+        .or(Absent::Described("the values have equal distances")),
     ],
-    together: &[],
+    key_rules: &[],
 };
 
 /// Values in a file.
@@ -352,9 +352,9 @@ pub static FILE_VALUES: Object = Object {
             "the heading of the column, in the first line of the file",
             r#""mass (kg)""#,
         )
-        .or(Absent::Said("the only column")),
+        .or(Absent::Described("the only column")),
     ],
-    together: &[],
+    key_rules: &[],
 };
 
 /// A model that the lesson shows.
@@ -371,7 +371,7 @@ pub static LISTING: Object = Object {
         r#""pendulum.xml""#,
     )
     .must("without it there is no model")],
-    together: &[],
+    key_rules: &[],
 };
 
 /// A closed form with a tolerance.
@@ -395,7 +395,7 @@ pub static CLOSED_FORM: Object = Object {
             "the largest allowed difference between the trace and the formula, in the unit of the trace",
             "0.01",
         )
-        .or(Absent::Said("decided by the convergence of the lab")),
+        .or(Absent::Described("decided by the convergence of the lab")),
     ],
-    together: &[],
+    key_rules: &[],
 };

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Writes tests/golden/parting.json: how many times as large small differences of the start are at the end of the labs of
+"""Writes tests/golden/divergence.json: how many times as large small differences of the start are at the end of the labs of
 tests/precision/kinds.md.
 
-    tests/golden/parting.py > tests/golden/parting.json      # numpy on a machine whose long double has 64 bits of mantissa
+    tests/golden/divergence.py > tests/golden/divergence.json      # numpy on a machine whose long double has 64 bits of mantissa
 
 The equations are those of precision.py, by hand, with what it leaves out: the place and the orientation of the free body. A difference
 is one of joint coordinates and velocities; the flow's derivative is taken by central differences in numbers of 19 digits. Labs with

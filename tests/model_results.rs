@@ -102,7 +102,7 @@ impl ModelResults {
     fn table(&self, cause: impl Fn(&str, &str) -> Option<&'static str>) -> String {
         let loaded = self.0.iter().filter_map(|(_, o)| o.as_ref().ok());
         let mut text = String::from(
-            "# Models held against MuJoCo 3.14.0\n\nWritten by `tests/standing.rs`; constraints are switched off on both sides.\n\n",
+            "# Models held against MuJoCo 3.14.0\n\nWritten by `tests/model_results.rs`; constraints are switched off on both sides.\n\n",
         );
         let _ = writeln!(text, "{} models, {} load.\n", self.0.len(), loaded.clone().count());
         text.push_str("| aspect | the same | sensitive | refused there | differs |\n|---|---|---|---|---|\n");
