@@ -146,7 +146,7 @@ fn a_comment_is_about_the_block_that_follows() {
     ] {
         let checked = check_text("fall.md", &text(block));
         assert_eq!(codes(&checked), [] as [&str; 0], "{block}");
-        let line = checked.lesson.file.position(checked.lesson.remarks[0].span.start).line;
+        let line = checked.lesson.file.position(checked.lesson.claim_comments[0].span.start).line;
         let judged = judged(&checked, &format!("comment in line {line}"));
         assert_eq!(judged.quotes.iter().map(|q| q.verdict()).collect::<Vec<_>>(), ["verified"], "{block}");
     }
