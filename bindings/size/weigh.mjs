@@ -53,7 +53,7 @@ const add = (line) => {
 const head = ["| module | bytes | `gzip -9` | brotli 11 |", "|---|---:|---:|---:|"];
 head.forEach(add);
 for (const [name, features] of BUILDS) add(`| ${[name, ...cells(built(features))].join(" | ")} |`);
-for (const [name, module] of [["player: the same and labs", "player"], ["checker: the same and lessons, lint, verification", "checker"]]) {
+for (const [name, module] of [["player (`labspec`): the same and labs", "player"], ["`labspec/compiled`: the player without MJCF and convex shapes", "compiled"], ["checker (`labspec/checker`): the player and lessons, lint, verification", "checker"]]) {
   const file = join(web, "labspec/generated", module, "labspec_bg.wasm");
   if (existsSync(file)) add(`| ${[name, ...cells(file)].join(" | ")} |`);
 }

@@ -47,6 +47,14 @@ pub struct Comparison {
     pub at_end: &'static [&'static str],
     /// They state a bound together with the word behind them: `at least as fast`.
     pub limits: &'static [&'static str],
+    /// They name an object by another one: `the other ball`.
+    pub partners: &'static [&'static str],
+    /// Before an object that acts on another one: `by`.
+    pub agents: &'static [&'static str],
+    /// Ordinal numbers, with the number: `second`.
+    pub ordinals: &'static [(&'static str, usize)],
+    /// Names of what happens once or several times in a run, beside an ordinal number: `bounce`.
+    pub events: &'static [&'static str],
 }
 
 /// For languages whose comparisons are not read.
@@ -74,4 +82,8 @@ pub(super) const UNREAD: Comparison = Comparison {
     at_start: &[],
     at_end: &[],
     limits: &[],
+    partners: &[],
+    agents: &[],
+    ordinals: &[],
+    events: &[],
 };

@@ -230,9 +230,20 @@ pub(super) static ENGLISH: Language = Language {
         highest: &["highest", "maximum", "maximal", "largest", "greatest", "peak", "biggest"],
         lowest: &["lowest", "minimum", "minimal", "smallest", "least"],
         average: &["average", "on average", "mean"],
-        at_start: &["at the start", "at the beginning", "initially", "in the beginning", "at first"],
+        at_start: &[
+            "at the start",
+            "at the beginning",
+            "initially",
+            "initial",
+            "in the beginning",
+            "at first",
+        ],
         at_end: &["at the end", "in the end", "finally"],
         limits: &["least", "most", "without"],
+        partners: &["other", "another", "partner"],
+        agents: &["by", "that", "which", "whom"],
+        ordinals: &[("first", 1), ("second", 2), ("third", 3), ("fourth", 4)],
+        events: &["time", "bounce", "impact", "hit", "contact", "touch", "landing", "collision", "crossing"],
     },
     ratios: Ratios {
         factors: &[

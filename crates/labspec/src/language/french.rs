@@ -127,9 +127,21 @@ pub(super) static FRENCH: Language = Language {
             "le plus bas",
         ],
         average: &["moyenne", "en moyenne"],
-        at_start: &["au début"],
+        at_start: &["au début", "initiale", "initial"],
         at_end: &["à la fin", "finalement"],
         limits: &[],
+        partners: &["autre", "partenaire"],
+        agents: &["par", "que"],
+        ordinals: &[
+            ("premier", 1),
+            ("première", 1),
+            ("deuxième", 2),
+            ("second", 2),
+            ("seconde", 2),
+            ("troisième", 3),
+            ("quatrième", 4),
+        ],
+        events: &["fois", "rebond", "choc", "impact", "contact", "passage"],
     },
     ratios: Ratios {
         factors: &[

@@ -112,6 +112,19 @@ pub(super) static ITALIAN: Language = Language {
         at_start: &["all'inizio"],
         at_end: &["alla fine"],
         limits: &["non"],
+        partners: &["altro", "altra"],
+        agents: &["da", "dal", "dalla", "che"],
+        ordinals: &[
+            ("primo", 1),
+            ("prima", 1),
+            ("secondo", 2),
+            ("seconda", 2),
+            ("terzo", 3),
+            ("terza", 3),
+            ("quarto", 4),
+            ("quarta", 4),
+        ],
+        events: &["volta", "rimbalzo", "urto", "impatto", "contatto"],
     },
     ratios: Ratios {
         factors: &[

@@ -120,6 +120,11 @@ impl Languages {
         self.words_of(move |language| of(&language.comparison))
     }
 
+    /// Ordinal numbers of the languages of the set.
+    pub(crate) fn ordinals(self) -> impl Iterator<Item = (&'static str, usize)> {
+        self.iter().flat_map(|language| language.comparison.ordinals.iter().copied())
+    }
+
     /// The words of one kind with which the languages of the set state ratios.
     pub(crate) fn ratios<T: Copy + 'static>(
         self,

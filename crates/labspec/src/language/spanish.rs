@@ -100,6 +100,19 @@ pub(super) static SPANISH: Language = Language {
         at_start: &["al principio", "al inicio"],
         at_end: &["al final"],
         limits: &[],
+        partners: &["otro", "otra"],
+        agents: &["por", "que"],
+        ordinals: &[
+            ("primer", 1),
+            ("primera", 1),
+            ("segundo", 2),
+            ("segunda", 2),
+            ("tercer", 3),
+            ("tercera", 3),
+            ("cuarto", 4),
+            ("cuarta", 4),
+        ],
+        events: &["vez", "rebote", "choque", "impacto", "contacto", "golpe"],
     },
     ratios: Ratios {
         factors: &[

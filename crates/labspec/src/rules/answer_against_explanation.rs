@@ -1,5 +1,5 @@
 use super::Check;
-use super::wording::{TextNumber, numbers, plain};
+use super::wording::{TextNumber, normalized_words, numbers, plain};
 use crate::spec::{Question, QuestionKind};
 use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
@@ -44,6 +44,14 @@ const TRUE_WORDS: [&str; 9] =
     ["true", "right", "correct", "yes", "wahr", "richtig", "vrai", "verdadero", "vero"];
 const FALSE_WORDS: [&str; 7] = ["false", "wrong", "incorrect", "no", "falsch", "faux", "falso"];
 
+/// Words with which a statement denies something.
+const NEGATIONS: [&str; 14] = [
+    " not ", " no ", " never ", " none ", " t ", " nicht ", " kein ", " keine ", " nie ", " ne ", " n ", " pas ", " non ",
+    " nunca ",
+];
+/// Words with which an explanation goes on that agrees with a part of the statement only.
+const CONCESSIONS: [&str; 7] = [" but ", " however ", " aber ", " jedoch ", " mais ", " pero ", " ma "];
+
 /// Reports an explanation of a statement that begins with the other answer.
 fn check_statement(question: &Question, findings: &mut Vec<Finding>) {
     let (Some(key), Some(explain)) = (question.key(), &question.explain) else { return };
@@ -55,6 +63,14 @@ fn check_statement(question: &Question, findings: &mut Vec<Finding>) {
     // `True friction …` is not an answer.
     let stands_alone =
         behind.trim_start().starts_with(['.', ':', ',', ';', '!', '—', '–', '*']) || behind.trim().is_empty();
+    // "No" agrees with a statement that denies something, and "yes, but" with a part of it.
+    let words = format!(" {} ", normalized_words(question.q.as_str()));
+    let is_denial = NEGATIONS.iter().any(|negation| words.contains(negation));
+    let explanation = format!(" {} ", normalized_words(explain.as_str()));
+    let concedes = CONCESSIONS.iter().any(|but| explanation.contains(but));
+    if is_denial || concedes {
+        return;
+    }
     let says = |list: &[&str]| list.contains(&word.as_str()) && stands_alone;
     if (right && says(&FALSE_WORDS)) || (!right && says(&TRUE_WORDS)) {
         let message = format!("the answer is {right}, but its explanation begins with \"{word}\"");
@@ -79,7 +95,7 @@ fn check_question(question: &Question, findings: &mut Vec<Finding>) {
     };
     let html = explain.as_str();
     let all = numbers(html);
-    if key == 0.0 || all.iter().any(|n| is(n, key, decimals)) {
+    if key == 0.0 || all.iter().any(|n| is(n, key, decimals)) || is_combined(key, &all, question) {
         return;
     }
     let unit = unit.as_ref().map_or(String::new(), |u| plain_unit(u.as_str()));
@@ -115,6 +131,18 @@ fn check_question(question: &Question, findings: &mut Vec<Finding>) {
             .related(explain.span_of(n.span.clone()), "the explanation")
             .help("compute it again, and write the same number in both places"),
     );
+}
+
+/// Whether an answer is the sum or the difference of two numbers, one of the explanation and one of it or of the question.
+fn is_combined(key: f64, explained: &[TextNumber], question: &Question) -> bool {
+    let given = numbers(question.q.as_str());
+    explained.iter().enumerate().any(|(i, a)| {
+        explained.iter().skip(i + 1).chain(&given).any(|b| {
+            let digit = 0.1_f64.powi(a.decimals.max(b.decimals) as i32);
+            let is_key = |x: f64| (x.abs() - key.abs()).abs() <= 1.5 * digit;
+            a.significant > 1 && b.significant > 1 && (is_key(a.value - b.value) || is_key(a.value + b.value))
+        })
+    })
 }
 
 /// Whether the unit of the answer follows a number.

@@ -8,7 +8,7 @@ pub const COMMENT_KEYWORD: &Rule = &Rule {
     severity: Severity::Error,
     exceptions: &[],
     layer: Layer::Source,
-    summary: "a comment begins with `labspec`, but nothing reads it: its keyword is unknown, or its marks are not those of a comment",
+    summary: "a comment begins with `labspec` or has claims, but nothing reads it: its first words are not `labspec` and a keyword, or its marks are not those of a comment",
     why: "a claim in a comment that nothing reads is not checked, and an allowance does nothing",
     bad: Example::Lesson(
         "⟦<!-- labspec verfy {\"says\": [[\"9 m\", \"4 + 5\"]]} -->⟧\nIt is 9 m.\n\n```lab simlab\n{\"model\": \"ball\", \"plots\": []}\n```\n",

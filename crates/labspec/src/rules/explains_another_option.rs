@@ -59,6 +59,21 @@ fn letter(i: usize) -> char {
     u8::try_from(i).ok().and_then(|i| b'A'.checked_add(i)).map_or('?', char::from)
 }
 
+/// Words of somebody else's opinion.
+const OPINIONS: [&str; 5] = ["believe", "believes", "think", "thinks", "say"];
+/// The number of words between them and what they are about.
+const OPINION_LENGTH: usize = 3;
+
+/// Whether a text states a sentence as its own and whole: not `many believe that …`, and not `… for the speed`.
+fn states(text: &str, sentence: &str) -> bool {
+    text.match_indices(sentence).any(|(start, _)| {
+        let before = text.get(..start).unwrap_or("");
+        let behind = text.get(start + sentence.len()..).unwrap_or("");
+        let is_opinion = before.split_whitespace().rev().take(OPINION_LENGTH).any(|word| OPINIONS.contains(&word));
+        !is_opinion && !["for ", "about ", "in "].iter().any(|word| behind.starts_with(word))
+    })
+}
+
 /// Whether a text explicitly calls this option correct.
 fn calls_correct(text: &str, i: usize, option: &str) -> bool {
     let letter = letter(i).to_lowercase().to_string();
@@ -67,17 +82,17 @@ fn calls_correct(text: &str, i: usize, option: &str) -> bool {
     RIGHT.iter().any(|right| {
         let named = OPTION_NOUNS.iter().any(|thing| {
             let ordinal = ORDINALS.get(i).is_some_and(|o| {
-                text.contains(&format!(" {o} {thing} is {right} "))
-                    || text.contains(&format!(" {right} {thing} is the {o} "))
+                states(text, &format!(" {o} {thing} is {right} "))
+                    || states(text, &format!(" {right} {thing} is the {o} "))
             });
             ordinal
-                || text.contains(&format!(" {thing} {letter} is {right} "))
-                || text.contains(&format!(" {right} {thing} is {letter} "))
-                || (long && text.contains(&format!(" {right} {thing} is {words} ")))
+                || states(text, &format!(" {thing} {letter} is {right} "))
+                || states(text, &format!(" {right} {thing} is {letter} "))
+                || (long && states(text, &format!(" {right} {thing} is {words} ")))
         });
         named
             || (long
-                && text.contains(&format!(" {words} is {right} "))
+                && states(text, &format!(" {words} is {right} "))
                 && !text.contains(&format!(" not {words} is ")))
     })
 }
@@ -102,6 +117,12 @@ mod tests {
         assert_eq!(calls("Option B is right."), [1]);
         assert_eq!(calls("The correct answer is the third."), [2]);
         assert_eq!(calls("The right option is \"it falls\"."), [1]);
-        assert_eq!(calls("Option B is wrong, it falls at first."), [] as [usize; 0]);
+        for text in [
+            "Option B is wrong, it falls at first.",
+            "Option A is correct for the speed.",
+            "Many believe that the first answer is correct.",
+        ] {
+            assert_eq!(calls(text), [] as [usize; 0], "{text}");
+        }
     }
 }

@@ -66,7 +66,11 @@ pub(super) fn numbers(html: &str) -> Vec<TextNumber> {
             offset += from;
             let tail = html.get(offset..end).unwrap_or("");
             let whole = length_of(tail);
-            let part = tail.get(whole..).and_then(|tail| tail.strip_prefix('.')).map_or(0, length_of);
+            let behind =
+                |mark: char| tail.get(whole..).and_then(|tail| tail.strip_prefix(mark)).map_or(0, length_of);
+            // A comma before three digits groups them, except behind a zero.
+            let comma = Some(behind(',')).filter(|n| *n != 3 || tail.starts_with("0,")).unwrap_or(0);
+            let part = behind('.').max(comma);
             let length = whole + if part > 0 { part + 1 } else { 0 };
             all.extend(number(html, offset..offset + length, part));
             offset += length;
@@ -92,7 +96,7 @@ fn number(html: &str, span: Range<usize>, decimals: usize) -> Option<TextNumber>
     }
     // `a - b` is a difference, `a = -b` a negative number.
     let sign = negative && !outer.trim_end().ends_with(|c: char| c.is_alphanumeric() || ")}".contains(c));
-    let value: f64 = digits.parse().ok()?;
+    let value: f64 = digits.replace(',', ".").parse().ok()?;
     let significant = digits.bytes().filter(u8::is_ascii_digit).skip_while(|b| *b == b'0').count();
     Some(TextNumber { span, value: if sign { -value } else { value }, decimals, significant })
 }
@@ -110,6 +114,7 @@ mod tests {
         );
         assert_eq!(values("$10^{-11}$ and $2 \\times 9.81 \\times 0.3$ = 5.886 N m"), [0.3, 5.886]);
         assert_eq!(values("5 − 0.367 = 4.633"), [5.0, 0.367, 4.633]);
+        assert_eq!(values("v = g t = 0,49 m/s, 3,26 m und 0,375 s"), [0.49, 3.26, 0.375]);
     }
 
     #[test]

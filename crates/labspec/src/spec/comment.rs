@@ -119,14 +119,13 @@ pub(crate) fn unread_comments(text: &str, scan: &Scan) -> Vec<UnreadComment> {
             let closed = text.get(begin..html.end).and_then(|t| t.find(CLOSES)).map(|i| begin + i);
             let inside = begin..closed.unwrap_or(html.end);
             from = closed.map_or(html.end, |end| end + CLOSES.len());
-            let words = text.get(inside.clone()).and_then(first_words);
-            let Some((name, keyword, is_object)) = words else { continue };
+            let Some(head) = text.get(inside.clone()).and_then(head_of) else { continue };
             let is_read = || KEYWORDS.iter().any(|word| behind(text, inside.clone(), word).is_some());
-            if !is_ours(&name, &keyword, is_object) || closed.is_some() && is_read() {
+            if !is_ours(&head) || closed.is_some() && is_read() {
                 continue;
             }
-            let has_keyword = closed.is_some() && !KEYWORDS.contains(&keyword.as_str());
-            let near = || nearest(&keyword, KEYWORDS);
+            let has_keyword = closed.is_some() && !KEYWORDS.contains(&head.keyword.as_str());
+            let near = || nearest(&head.keyword, KEYWORDS).or_else(|| nearest(&head.name, KEYWORDS));
             all.push(UnreadComment { span: start..from, keyword: has_keyword.then(near) });
         }
     }
@@ -141,11 +140,11 @@ fn mdx_comments(text: &str, scan: &Scan) -> Vec<UnreadComment> {
     while let Some(start) = text.get(from..).and_then(|t| t.find(MDX_OPENS)).map(|i| from + i) {
         let begin = start + MDX_OPENS.len();
         from = begin;
-        let Some((name, keyword, is_object)) = text.get(begin..).and_then(first_words) else { continue };
+        let Some(head) = text.get(begin..).and_then(head_of) else { continue };
         let last = scan.blocks.partition_point(|block| block.span.start <= start).checked_sub(1);
         let is_in_block =
             last.and_then(|i| scan.blocks.get(i)).is_some_and(|block| block.span.contains(&start));
-        if is_in_block || !is_ours(&name, &keyword, is_object) {
+        if is_in_block || !is_ours(&head) {
             continue;
         }
         let closed = text.get(begin..).and_then(|t| t.find(MDX_CLOSES)).map(|i| begin + i + MDX_CLOSES.len());
@@ -155,19 +154,39 @@ fn mdx_comments(text: &str, scan: &Scan) -> Vec<UnreadComment> {
     all
 }
 
-/// The first two words of a comment in lower case, and whether an object follows.
-fn first_words(inside: &str) -> Option<(String, String, bool)> {
+/// The beginning of a comment.
+struct CommentHead {
+    /// Its first two words in lower case.
+    name: String,
+    keyword: String,
+    /// Whether an object follows, and whether it has the keys of claims.
+    is_object: bool,
+    has_claims: bool,
+}
+
+fn head_of(inside: &str) -> Option<CommentHead> {
     let end = (0..=MAX_WORDS.min(inside.len())).rev().find(|i| inside.is_char_boundary(*i))?;
     let head = inside.get(..end)?.trim_start_matches(|c: char| c == '-' || c == '!' || c.is_whitespace());
     let mut words = head.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
     let name = words.next()?.to_lowercase();
-    Some((name, words.next().unwrap_or("").to_lowercase(), head.contains('{')))
+    let object = head.find('{').and_then(|start| head.get(start..));
+    Some(CommentHead {
+        name,
+        keyword: words.next().unwrap_or("").to_lowercase(),
+        is_object: object.is_some(),
+        has_claims: object.is_some_and(|object| CLAIM_KEYS.iter().any(|key| object.contains(key))),
+    })
 }
 
-/// Whether a comment with these first words is meant for labspec.
-fn is_ours(name: &str, keyword: &str, is_object: bool) -> bool {
-    let is_keyword = KEYWORDS.contains(&keyword);
-    name == OURS || nearest(name, [OURS]).is_some() && name.len() > 4 && (is_keyword || is_object)
+/// Keys of claims, as JSON writes them.
+const CLAIM_KEYS: [&str; 5] = ["\"says\"", "\"measure\"", "\"runs\"", "\"table\"", "\"exact\""];
+
+/// Whether a comment with these first words is meant for labspec. One with an object of claims is, whatever its first words are.
+fn is_ours(CommentHead { name, keyword, is_object, has_claims }: &CommentHead) -> bool {
+    let is_keyword = KEYWORDS.contains(&keyword.as_str());
+    *has_claims
+        || name == OURS
+        || nearest(name, [OURS]).is_some() && name.len() > 4 && (is_keyword || *is_object)
 }
 
 /// The bytes of the comments with claims and definitions, and of the JSON in them.

@@ -112,6 +112,18 @@ impl<'n, 'f> Fields<'n, 'f> {
         self.members.iter().any(|m| m.key.value == key) || self.meant.iter().any(|(right, _)| *right == key)
     }
 
+    /// Whether the value of a key is an empty list or an empty object.
+    pub(super) fn is_empty(&self, key: &str) -> bool {
+        self.members.iter().any(|m| {
+            let nothing = match &m.value.json {
+                Json::Array(items) => items.is_empty(),
+                Json::Object(members) => members.is_empty(),
+                _ => false,
+            };
+            m.key.value == key && nothing
+        })
+    }
+
     /// Records that a key is missing. The problem points to the opening bracket of the object.
     pub(super) fn missing(&mut self, key: &'static str, why: &'static str, advised: bool) {
         if self.missing.iter().any(|(k, _)| *k == key) {

@@ -191,7 +191,9 @@ fn read_object(node: &Node, is_definition: bool, problems: &mut Vec<Problem>) ->
     let before = problems.len();
     let mut fields = Fields::open(node, &VERIFY, problems)?;
     let f = &mut fields;
-    let claims = ["options", "value", "says", "table", "exact"].iter().any(|key| f.has(key));
+    // An empty list claims as little as none.
+    let claims =
+        ["options", "value", "says", "table", "exact"].iter().any(|key| f.has(key) && !f.is_empty(key));
     if claims && is_definition {
         let mistake = Mistake::ClaimsInDefinition.at(f.span());
         f.problems.push(mistake);

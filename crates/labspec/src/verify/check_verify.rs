@@ -4,6 +4,7 @@ use super::bound::BoundVerify;
 use super::event_at_start::check_events;
 use super::identical_runs::check_identical_runs;
 use super::judgement::{Judgement, Measured, RunReport, not_executable};
+use super::late_time::check_times;
 use super::options::is_undecided;
 use super::outcome::MeasuredRuns;
 use super::outcomes::{Outcomes, run_all_numerics};
@@ -35,6 +36,7 @@ pub fn check_verify(
             // A claim that is refuted has its finding.
             if !findings.iter().skip(before).any(|f| f.severity == Severity::Error) {
                 check_events(bound, &outcomes.nominal, verify, findings);
+                check_times(bound, &outcomes.nominal, verify, findings);
             }
             judgement
         }

@@ -51,6 +51,7 @@ mod imagined;
 mod interpolated;
 pub mod judge;
 mod judgement;
+mod late_time;
 mod layout;
 mod list_measure;
 mod loose_tolerance;

@@ -204,11 +204,16 @@ fn asked_change(question: &str, languages: Languages) -> Option<Change> {
     if let Some(word) = words.iter().find(|word| is(word, |c| c.loses)) {
         return change(word, Part::Loss);
     }
+    // With the words behind it: `plus lente`. A comparative behind an article names a thing: `the lower speed`.
     let near = if is_by { words.len() } else { 1 };
-    if let Some((word, part)) =
-        words.iter().take(near).find_map(|word| Some((*word, comparative(word, languages)?)))
-    {
-        return change(word, part);
+    let mut end = 0;
+    for (i, word) in words.iter().enumerate().take(near) {
+        let start = end + rest.get(end..)?.find(word)?;
+        end = start + word.len();
+        let of_thing = i.checked_sub(1).and_then(|before| words.get(before)) == Some(&"the");
+        if let Some(part) = comparative(rest.get(start..)?, languages).filter(|_| !of_thing) {
+            return change(word, part);
+        }
     }
     let (verb, part) = verb_of_change(&words, languages).filter(|_| is_by)?;
     change(verb, part)

@@ -115,18 +115,26 @@ fn check_single(
     let measures = |name: &str| checker.bound.text_of_measure(name);
     let languages = checker.bound.stage().languages();
     let expr = StatedExpr { text, value: value.number(), measures: &measures, languages };
-    let reason = check_ratio_of_change(quote, clause_of(places), expr, findings);
-    if let (None, [place]) = (&reason, places) {
+    let reason = match places {
+        [] => check_ratio_of_change(quote, None, expr, findings),
+        _ => places
+            .iter()
+            .find_map(|place| check_ratio_of_change(quote, Some(&place.clause.text), expr, findings)),
+    };
+    if reason.is_some() {
+        return reason;
+    }
+    // A quote that stands at several places claims all of them.
+    for place in places {
+        // A quote with several quantities names its setting itself: `0.2 m/s with 9 kg`.
+        let is_whole = quote::quantities_in(quote.as_str(), languages).len() > 1;
         let clause = place.clause.text.replacen(quote.as_str(), " ", 1);
-        let words = format!("{} {clause}", place.clause.introduction);
+        let words = match is_whole {
+            true => quote.value.to_string(),
+            false => format!("{} {clause}", place.clause.introduction),
+        };
         let nominal = &checker.outcomes.nominal;
         check_words_of_measure(checker.bound, nominal, &words, place.span.clone(), text, findings);
     }
-    reason
-}
-
-/// The clause of a quote with one place.
-fn clause_of(places: &[quote::QuotePlace]) -> Option<&str> {
-    let [place] = places else { return None };
-    Some(&place.clause.text)
+    None
 }

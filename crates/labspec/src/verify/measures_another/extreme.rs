@@ -83,8 +83,22 @@ fn may_be_negated(e: &Expr) -> bool {
 fn is_of_setting(text: &str, start: usize) -> bool {
     let before = text.get(..start).unwrap_or("").trim_end();
     [
-        "with the", "at the", "for the", "from the", "in the", "by the", "mit der", "mit dem", "am",
-        "bei der", "im",
+        "with the",
+        "at the",
+        "for the",
+        "from the",
+        "in the",
+        "by the",
+        "above the",
+        "below the",
+        "its",
+        "mit der",
+        "mit dem",
+        "am",
+        "bei der",
+        "im",
+        "über dem",
+        "unter dem",
     ]
     .iter()
     .any(|words| ends_with(before, words))

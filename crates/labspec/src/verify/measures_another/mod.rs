@@ -1,10 +1,11 @@
-//! Finds texts whose words name another object, setting, time or extreme than the expression beside them reads: "the cork ball presses with
+//! Finds texts whose words name another object, setting, time, occurrence or extreme than the expression beside them reads: "the cork ball presses with
 //! 29.4 N" beside `normalForce('iron')`. The other value is computed in the same run, or is that of the other run; where it is the same,
 //! nothing is reported.
 
 mod extreme;
 mod moment;
 mod object;
+mod occurrence;
 mod setting;
 
 use super::bound::BoundVerify;
@@ -13,6 +14,7 @@ use super::compiled_claim::CompiledClaim;
 use super::format::significant;
 use super::layout::Slot;
 use super::outcome::MeasuredRuns;
+use super::quote::{OptionNumber, quantities_in};
 use crate::bind::Scope;
 use crate::finding::Finding;
 use crate::json::read::named;
@@ -37,10 +39,17 @@ pub(super) fn check_words_of_measure(
     expr: &Text,
     findings: &mut Vec<Finding>,
 ) {
-    let Some(read) = ReadMeasure::new(bound, outcome, expr) else { return };
+    let Some(read) = ReadMeasure::new(bound, outcome, words, expr) else { return };
     let lower = words.to_lowercase();
-    let all: [fn(&ReadMeasure<'_, '_>, &str) -> Option<Other>; 6] =
-        [object::other, setting::named_run, setting::other, setting::untested, moment::other, extreme::other];
+    let all: [fn(&ReadMeasure<'_, '_>, &str) -> Option<Other>; 7] = [
+        object::other,
+        setting::named_run,
+        setting::other,
+        setting::untested,
+        moment::other,
+        occurrence::other,
+        extreme::other,
+    ];
     let Some(other) = all.iter().find_map(|other| other(&read, &lower)) else { return };
     let message =
         format!("the text says {}, but `{}` reads {}", named(&other.words), expr.as_str(), other.read);
@@ -54,6 +63,13 @@ pub(super) fn check_words_of_measure(
             .help("correct the text, or read what it is about")
             .related(read.text.span(), "what is read"),
     );
+}
+
+/// The lower-case text before a quantity of it, whose unit may be written in another way there.
+fn before_quantity<'t>(text: &'t str, quantity: &str) -> Option<&'t str> {
+    let lower = quantity.to_lowercase();
+    let number = lower.split_whitespace().next()?;
+    text.get(..text.find(&lower).or_else(|| text.find(number))?)
 }
 
 /// What the words of a text name in place of what a claim reads.
@@ -72,6 +88,8 @@ struct Other {
 struct ReadMeasure<'b, 'a> {
     bound: &'b BoundVerify<'a>,
     outcome: &'b MeasuredRuns,
+    /// The text beside the claim, in which units have their capital letters.
+    words: &'b str,
     expr: &'b Text,
     claim: Rc<CompiledClaim>,
     /// The position of the number.
@@ -90,6 +108,7 @@ impl<'b, 'a> ReadMeasure<'b, 'a> {
     fn new(
         bound: &'b BoundVerify<'a>,
         outcome: &'b MeasuredRuns,
+        words: &'b str,
         expr: &'b Text,
     ) -> Option<ReadMeasure<'b, 'a>> {
         let claim = bound.claim(expr)?;
@@ -101,7 +120,12 @@ impl<'b, 'a> ReadMeasure<'b, 'a> {
         let text = bound.measure_at(run, measure)?.text.clone().into_owned();
         let value = bound.find(outcome, expr, &mut Vec::new())?.value;
         let languages = bound.stage().languages();
-        Some(ReadMeasure { bound, outcome, expr, claim, place, run, measure, text, value, languages })
+        Some(ReadMeasure { bound, outcome, words, expr, claim, place, run, measure, text, value, languages })
+    }
+
+    /// The quantities of the text.
+    fn quantities(&self) -> Vec<OptionNumber> {
+        quantities_in(self.words, self.languages)
     }
 
     /// The value of the claim with another text of the measure in the same run, if it is another one.

@@ -1,8 +1,8 @@
 //! A time that a text names in place of the one at which a measure reads the run.
 
 use super::super::option_numbers::constant;
-use super::super::quote::quantities_in;
-use super::{Other, ReadMeasure};
+use super::super::quote::OptionNumber;
+use super::{Other, ReadMeasure, before_quantity};
 use crate::language::words::split_words;
 use labspec_bind::units::parse;
 use labspec_expr::ast::{BinaryOp, Expr, ExprKind};
@@ -41,9 +41,15 @@ pub(super) fn other(read: &ReadMeasure<'_, '_>, text: &str) -> Option<Other> {
 /// The only time in seconds behind a word such as `after`, and its text.
 fn stated_time(read: &ReadMeasure<'_, '_>, text: &str) -> Option<(f64, String)> {
     let second = parse("s")?;
-    let mut times = quantities_in(text, read.languages).into_iter().filter_map(|q| {
-        let dimension = q.unit.dimension.filter(|d| d.agrees(&second))?;
-        let before = text.get(..text.find(&q.text.to_lowercase())?)?;
+    let quantities = read.quantities();
+    let is_time = |q: &OptionNumber| q.unit.dimension.is_some_and(|d| d.agrees(&second));
+    // `0.1 s after the collision at 0.4 s`
+    if quantities.iter().filter(|q| is_time(q)).count() > 1 {
+        return None;
+    }
+    let mut times = quantities.into_iter().filter_map(|q| {
+        let dimension = q.unit.dimension.filter(|_| is_time(&q))?;
+        let before = before_quantity(text, &q.text)?;
         let mut near = split_words(before).rev().take(NEAR);
         let is_after = near.any(|word| read.languages.comparisons(|c| c.after).any(|after| after == word));
         (is_after && q.low.is_finite() && q.high.is_finite()).then(|| (q.number() * dimension.factor, q.text))

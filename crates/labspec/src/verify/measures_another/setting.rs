@@ -3,8 +3,7 @@
 use super::super::bound_run::BoundRun;
 use super::super::condition::numbers_in;
 use super::super::given::settings_of;
-use super::super::quote::quantities_in;
-use super::{Other, ReadMeasure};
+use super::{Other, ReadMeasure, before_quantity};
 use crate::bind::{given_by, scalar};
 use crate::json::read::named;
 use crate::language::words::{ends_with, find, split_words};
@@ -37,7 +36,7 @@ pub(super) fn named_run(read: &ReadMeasure<'_, '_>, text: &str) -> Option<Other>
 /// The setting of another run that a text states, if it does not state that of the run that is read.
 pub(super) fn other(read: &ReadMeasure<'_, '_>, text: &str) -> Option<Other> {
     let bound = read.bound;
-    let quantities = quantities_in(text, read.languages);
+    let quantities = read.quantities();
     if quantities.is_empty() {
         return None;
     }
@@ -62,7 +61,7 @@ pub(super) fn other(read: &ReadMeasure<'_, '_>, text: &str) -> Option<Other> {
         })?;
         Some((i, label, stated))
     })?;
-    let before = text.get(..text.find(&words.to_lowercase())?)?;
+    let before = before_quantity(text, &words)?;
     let near = split_words(before).rev().take(COMPARED_WORDS);
     if near.into_iter().any(|word| COMPARED.contains(&word)) || ends_with(before.trim_end(), "→") {
         return None;
@@ -90,7 +89,7 @@ pub(super) fn untested(read: &ReadMeasure<'_, '_>, text: &str) -> Option<Other> 
     if changes_more_than_controls(run) {
         return None;
     }
-    let quantities = quantities_in(text, read.languages);
+    let quantities = read.quantities();
     let settings = settings_of(read.bound, run, scene);
     if quantities.iter().any(|q| settings.iter().any(|(_, given)| given.is(q))) {
         return None;
@@ -140,7 +139,8 @@ pub(super) fn untested(read: &ReadMeasure<'_, '_>, text: &str) -> Option<Other> 
 /// Whether the word before a text is one before a setting: `from 0.1 rad`.
 fn is_stated_as_setting(read: &ReadMeasure<'_, '_>, text: &str, words: &str) -> bool {
     let start = find(text, &words.to_lowercase());
-    let before = start.and_then(|start| text.get(..start)).unwrap_or("").trim_end();
+    let exact = start.and_then(|start| text.get(..start));
+    let before = exact.or_else(|| before_quantity(text, words)).unwrap_or("").trim_end();
     read.languages.ratios(|r| r.settings).any(|setting| ends_with(before, setting))
         && !split_words(before).rev().take(COMPARED_WORDS).any(|word| COMPARED.contains(&word))
 }

@@ -26,7 +26,7 @@ const WORDS: [&str; 14] = [
 ];
 
 /// The most words of an introduction.
-const INTRODUCTION: usize = 5;
+const INTRODUCTION: usize = 8;
 
 /// The clause around a place.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -260,7 +260,7 @@ pub(super) fn before(chars: Chars<'_>, start: usize) -> Option<&'static str> {
         // A fraction character that multiplies the number.
         c if c.is_numeric() && !c.is_ascii_digit() && !c.is_alphabetic() => Some(FORMULA),
         c if c.is_alphanumeric() && attached => Some(UNKNOWN_PREFIX),
-        c if c.is_alphanumeric() => words_before(chars, index),
+        c if c.is_alphanumeric() => words_before(chars, index, within),
         '%' => None,
         '\u{2200}'..='\u{22ff}' | '\u{2a00}'..='\u{2aff}'
             if !matches!(c, '≈' | '≃' | '≅' | '∼' | '≡' | '⇒' | '∴') =>
@@ -365,8 +365,9 @@ fn is_compared(line: &str) -> bool {
     }
 }
 
-/// The reason why the words that end at `index` change the meaning of the number.
-fn words_before(chars: Chars<'_>, index: usize) -> Option<&'static str> {
+/// The reason why the words that end at `index` change the meaning of the number. `is_apart`: a parenthesis is between them, so that a
+/// single letter is a name: `ball B (2 kg)`.
+fn words_before(chars: Chars<'_>, index: usize, is_apart: bool) -> Option<&'static str> {
     let near = chars.text(index.saturating_sub(MAX_CONTEXT), index);
     let line = near.rsplit('\n').next().unwrap_or("").to_lowercase();
     let ends =
@@ -405,7 +406,8 @@ fn words_before(chars: Chars<'_>, index: usize) -> Option<&'static str> {
     let mut letters = last.chars();
     let symbol = match (letters.next(), letters.next()) {
         (Some(c), None) => {
-            c.is_alphabetic() && !matches!(c, 'a' | 'i' | 'à' | 'y' | 'e' | 'o' | 'u' | 's' | 'm')
+            let is_word = matches!(c, 'a' | 'i' | 'à' | 'y' | 'e' | 'é' | 'è' | 'o' | 'u' | 's' | 'm');
+            c.is_alphabetic() && !is_word && !is_apart
         }
         _ => false,
     };

@@ -258,7 +258,7 @@ fn letter(chars: Chars<'_>, index: usize) -> Option<&'static str> {
     let symbol = c.is_alphabetic()
         && !is_wide(c)
         && alone
-        && !matches!(c, 'a' | 'I' | 'à' | 'y' | 'e' | 'o' | 'u' | 'A' | 'i');
+        && !matches!(c, 'a' | 'I' | 'à' | 'y' | 'e' | 'é' | 'è' | 'o' | 'u' | 'A' | 'i');
     let indexed = c.is_alphabetic() && matches!(chars.at(index + 1), Some('_' | '^' | '('));
     (symbol || digits || indexed).then_some(FORMULA)
 }

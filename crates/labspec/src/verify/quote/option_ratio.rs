@@ -6,7 +6,7 @@ use super::number::NumberForm;
 use super::numeral::Chars;
 use super::option_text::{BoundSide, plain_text};
 use super::quantity::quantities;
-use crate::language::words::{split_words, starts_with};
+use crate::language::words::{ends_with, split_words, starts_with};
 use crate::language::{ComparisonWords, Languages};
 use labspec_bind::units;
 use labspec_expr::dimension::Dimension;
@@ -80,8 +80,58 @@ fn is_setting(before: &str) -> bool {
 fn is_denied(before: &str) -> bool {
     let clause = before.rsplit(['.', ',', ';', ':', '?', '!']).next().unwrap_or("");
     let words: Vec<&str> = clause.split_whitespace().collect();
-    words.iter().rev().take(NEGATION_LENGTH + 1).any(|word| *word == "not" || word.ends_with("n't"))
-        || clause.contains("far from")
+    let is_negation =
+        |word: &str| word.ends_with("n't") || ALL.comparisons(|c| c.negations).any(|w| w == word);
+    words.iter().rev().take(NEGATION_LENGTH + 1).any(|word| is_negation(word))
+        || FAR_NEGATIONS.iter().any(|phrase| clause.contains(phrase))
+}
+
+/// Phrases that deny a factor in the same clause.
+const FAR_NEGATIONS: [&str; 9] = [
+    "far from",
+    "nowhere near",
+    "by no means",
+    "in no way",
+    "bei weitem nicht",
+    "keineswegs",
+    "loin de",
+    "lejos de",
+    "lontano da",
+];
+
+/// The most words of an object behind a factor, with which an option may end: `four times the height`.
+const OBJECT_LENGTH: usize = 3;
+
+/// Words behind a factor that make it a bound of an interval.
+const BOUNDS_BEHIND: [&str; 14] = [
+    "or more",
+    "or less",
+    "at least",
+    "at most",
+    "at the very least",
+    "at the very most",
+    "oder mehr",
+    "oder weniger",
+    "ou plus",
+    "ou moins",
+    "o más",
+    "o menos",
+    "o più",
+    "o meno",
+];
+
+/// Whether a factor behind this text is an end of a range, or a count: `two to three times`, `three halves`.
+fn is_ranged(before: &str) -> bool {
+    let mut words = before.split([' ', '–', '—', '-']).filter(|word| !word.is_empty()).rev();
+    let is_number = |word: &str| {
+        word.starts_with(|c: char| c.is_ascii_digit())
+            || ALL.words_of(|language| language.numerals).any(|n| n == word)
+            || NUMBER_WORDS.iter().any(|(n, _)| *n == word)
+    };
+    let (last, previous) = (words.next().unwrap_or(""), words.next().unwrap_or(""));
+    let joins =
+        ["to", "or", "and", "bis", "oder", "und", "à", "ou", "et", "o", "y", "e", "a"].contains(&last);
+    is_number(last) || joins && is_number(previous) || before.ends_with(['–', '—'])
 }
 
 /// Whether a part is one of a unit: `a tenth of a second`.
@@ -128,13 +178,30 @@ pub(in crate::verify) fn option_ratio(option: &str) -> Option<OptionRatio> {
         _ => return None,
     };
     let before = folded.get(..place.start)?.trim_end();
-    let (side, bound) = bound_before(before)?;
-    let before = before.strip_suffix(bound)?.trim_end();
+    // A bound stands before `a factor of`.
+    let outer = FACTOR_OF.iter().find_map(|words| before.strip_suffix(words)).map_or(before, str::trim_end);
+    let (side, bound) = bound_before(outer)?;
+    let before = if bound.is_empty() { before } else { outer.strip_suffix(bound)?.trim_end() };
     let behind = folded.get(place.end..)?;
-    if is_setting(before) || is_denied(before) || is_of_unit(behind) {
+    if is_setting(before) || is_denied(before) || is_of_unit(behind) || is_ranged(before) {
         return None;
     }
+    // `The speed doubles or less`, `15 times the angle makes it …`
+    let clause = behind.split(['.', ';', ':']).next().unwrap_or("").trim_start_matches([',', ' ']);
+    if BOUNDS_BEHIND.iter().any(|words| clause.contains(words))
+        || split_words(before.rsplit([',', ';', ':', '.']).next().unwrap_or("")).next().is_none()
+            && starts_with(clause, "the")
+            && split_words(clause).count() > OBJECT_LENGTH
+        || ["plus que", "moins que"].iter().any(|bound| before.ends_with(bound))
+    {
+        return None;
+    }
+    // `changes by less than a tenth`: the direction is open.
+    let is_by = ALL.comparisons(|c| c.by).any(|by| ends_with(before, by));
     let may_be = readings(x, share, before, behind);
+    if side.is_some() && is_by && x < 1.0 && may_be == [x] {
+        return None;
+    }
     // Example: `it takes longer from twice the height` is about a factor of the height.
     let near: String = behind
         .split(['.', ',', ';', ':'])
@@ -171,8 +238,11 @@ fn bound_before(before: &str) -> Option<(Option<BoundSide>, &'static str)> {
 /// Whether a number behind this text is a factor: `larger by a factor of`.
 fn is_factor(before: &str) -> bool {
     let before = before.trim_end();
-    ["a factor of", "the factor", "by the factor of"].iter().any(|words| before.ends_with(words))
+    FACTOR_OF.iter().any(|words| before.ends_with(words))
 }
+
+/// Words before the number of a factor.
+const FACTOR_OF: [&str; 3] = ["a factor of", "the factor", "by the factor of"];
 
 /// The dimensions of the quantities that the words of a text name.
 pub(in crate::verify) fn named_quantities(text: &str) -> Vec<Dimension> {
@@ -212,6 +282,9 @@ fn factor_words(lower: &str) -> Vec<(Range<usize>, f64)> {
     [mixed, single].concat()
 }
 
+/// German words that end like English comparatives.
+const POSSESSIVES: [&str; 5] = ["ihrer", "seiner", "unserer", "dieser", "jener"];
+
 /// The values of a ratio that a factor and the words around it may state.
 fn readings(x: f64, share: bool, before: &str, behind: &str) -> Vec<f64> {
     let next = split_words(behind).next().unwrap_or("");
@@ -220,7 +293,9 @@ fn readings(x: f64, share: bool, before: &str, behind: &str) -> Vec<f64> {
     let rest = behind.trim_start();
     let begins = |words: ComparisonWords| ALL.comparisons(words).any(|phrase| starts_with(rest, phrase));
     let is_less = begins(|c| c.smaller);
-    let is_comparative = is_less || begins(|c| c.larger) || next.len() > 4 && next.ends_with("er");
+    let is_comparative = is_less
+        || begins(|c| c.larger)
+        || next.len() > 4 && next.ends_with("er") && !POSSESSIVES.contains(&next);
     let again = split_words(behind).any(|w| w == "again");
     let is_smaller = is_factor(before) && split_words(before).any(|w| is(w, |c| c.smaller));
     let verb = |stems: ComparisonWords| {
@@ -233,7 +308,7 @@ fn readings(x: f64, share: bool, before: &str, behind: &str) -> Vec<f64> {
         () if is_comparative && is_less => vec![1.0 / x, 1.0 / (1.0 + x)],
         () if (is_comparative || again) && is_part => vec![1.0 + x],
         () if is_comparative => vec![x, 1.0 + x],
-        () if is_part && verb(|c| c.decreases) => vec![x, 1.0 - x],
+        () if is_part && (verb(|c| c.decreases) || verb(|c| c.loses)) => vec![x, 1.0 - x],
         () if is_part && verb(|c| c.increases) => vec![x, 1.0 + x],
         () if share => vec![x, 1.0 - x, 1.0 + x],
         () => vec![x],
@@ -298,6 +373,21 @@ mod tests {
             "nearly twice as long",
             "three balls",
             "it falls",
+            "two to three times as fast",
+            "between two and four times as fast",
+            "zwei- bis dreimal so schnell",
+            "deux à trois fois plus vite",
+            "it is nowhere near six times as fast",
+            "it by no means becomes six times as fast",
+            "sie ist bei weitem nicht sechsmal so schnell",
+            "it is twice as fast as before, or more",
+            "it doubles at the very least",
+            "it halves or less",
+            "it has three halves of its speed",
+            "15 times the angle makes it less than a fifth longer",
+            "Hardly: 15 times the angle changes it little",
+            "it changes by less than a tenth",
+            "la vitesse est plus que doublée",
         ] {
             assert_eq!(option_ratio(text), None, "{text}");
         }
@@ -311,6 +401,8 @@ mod tests {
             ("sie wird viermal so lang", 4.0),
             ("sinkt auf ein Viertel", 0.25),
             ("quatre fois plus longue", 4.0),
+            ("sie verliert ein Drittel ihrer Geschwindigkeit", 2.0 / 3.0),
+            ("la bille perd un tiers de sa vitesse", 2.0 / 3.0),
             ("deux fois plus courte", 0.5),
         ] {
             let ratio = option_ratio(text);
@@ -326,6 +418,7 @@ mod tests {
         assert_eq!(side("less than half as long"), Some(Some(BoundSide::Below)));
         assert_eq!(side("no more than twice as long"), Some(Some(BoundSide::Below)));
         assert_eq!(side("twice as long"), Some(None));
+        assert_eq!(side("it grows by less than a factor of three"), Some(Some(BoundSide::Below)));
     }
 
     #[test]
