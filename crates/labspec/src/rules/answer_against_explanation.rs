@@ -46,8 +46,8 @@ const FALSE_WORDS: [&str; 7] = ["false", "wrong", "incorrect", "no", "falsch", "
 
 /// Words with which a statement denies something.
 const NEGATIONS: [&str; 14] = [
-    " not ", " no ", " never ", " none ", " t ", " nicht ", " kein ", " keine ", " nie ", " ne ", " n ", " pas ", " non ",
-    " nunca ",
+    " not ", " no ", " never ", " none ", " t ", " nicht ", " kein ", " keine ", " nie ", " ne ", " n ",
+    " pas ", " non ", " nunca ",
 ];
 /// Words with which an explanation goes on that agrees with a part of the statement only.
 const CONCESSIONS: [&str; 7] = [" but ", " however ", " aber ", " jedoch ", " mais ", " pero ", " ma "];

@@ -69,7 +69,8 @@ fn states(text: &str, sentence: &str) -> bool {
     text.match_indices(sentence).any(|(start, _)| {
         let before = text.get(..start).unwrap_or("");
         let behind = text.get(start + sentence.len()..).unwrap_or("");
-        let is_opinion = before.split_whitespace().rev().take(OPINION_LENGTH).any(|word| OPINIONS.contains(&word));
+        let is_opinion =
+            before.split_whitespace().rev().take(OPINION_LENGTH).any(|word| OPINIONS.contains(&word));
         !is_opinion && !["for ", "about ", "in "].iter().any(|word| behind.starts_with(word))
     })
 }

@@ -123,6 +123,11 @@ impl<'b, 'a> ReadMeasure<'b, 'a> {
         Some(ReadMeasure { bound, outcome, words, expr, claim, place, run, measure, text, value, languages })
     }
 
+    /// Whether the measure reads the model only: it is a setting itself, beside which a text may state others.
+    fn is_of_model(&self) -> bool {
+        self.text.value.contains("model.") && !self.text.value.contains("data.")
+    }
+
     /// The quantities of the text.
     fn quantities(&self) -> Vec<OptionNumber> {
         quantities_in(self.words, self.languages)

@@ -37,7 +37,7 @@ pub(super) fn named_run(read: &ReadMeasure<'_, '_>, text: &str) -> Option<Other>
 pub(super) fn other(read: &ReadMeasure<'_, '_>, text: &str) -> Option<Other> {
     let bound = read.bound;
     let quantities = read.quantities();
-    if quantities.is_empty() {
+    if quantities.is_empty() || read.is_of_model() {
         return None;
     }
     let runs: Vec<_> = bound.runs_with_scenes().collect();
@@ -86,7 +86,7 @@ fn changes_more_than_controls(run: &BoundRun<'_>) -> bool {
 /// A setting that a student can choose and that the run does not have, if the text states it and not that of the run.
 pub(super) fn untested(read: &ReadMeasure<'_, '_>, text: &str) -> Option<Other> {
     let (run, scene) = read.bound.runs_with_scenes().nth(read.run)?;
-    if changes_more_than_controls(run) {
+    if changes_more_than_controls(run) || read.is_of_model() {
         return None;
     }
     let quantities = read.quantities();
