@@ -141,18 +141,20 @@ fn is_of_unit(behind: &str) -> bool {
     whole.is_some_and(|whole| split_words(whole).next().is_some_and(|word| units::parse(word).is_some()))
 }
 
-/// The only ratio that an option states about a result; `None` where it states several, a bound, or other numbers.
-pub(in crate::verify) fn option_ratio(option: &str) -> Option<OptionRatio> {
-    let folded = plain_text(option).to_lowercase();
+/// The factor of an option: its place, its text, its value, and whether it is a share in percent.
+type PlacedFactor = (Range<usize>, String, f64, bool);
+
+/// The only factor in the lower-case text of an option.
+fn only_factor(folded: &str) -> Option<PlacedFactor> {
     let chars: Vec<char> = folded.chars().take(2000).collect();
     let chars = Chars(&chars);
-    let factors = factor_words(&folded);
+    let factors = factor_words(folded);
     // Example: `two and a half days`, which states no ratio.
     let mut halves = folded.match_indices("and a half");
     if halves.any(|(half, _)| !factors.iter().any(|(place, _)| place.contains(&half))) {
         return None;
     }
-    let (place, text, x, share) = match (quantities(chars).as_slice(), factors.as_slice()) {
+    Some(match (quantities(chars).as_slice(), factors.as_slice()) {
         ([], [(place, x), others @ ..]) if others.iter().all(|(_, y)| y == x) => {
             (place.clone(), folded.get(place.clone())?.to_string(), *x, false)
         }
@@ -176,7 +178,13 @@ pub(in crate::verify) fn option_ratio(option: &str) -> Option<OptionRatio> {
             }
         }
         _ => return None,
-    };
+    })
+}
+
+/// The only ratio that an option states about a result; `None` where it states several, a bound, or other numbers.
+pub(in crate::verify) fn option_ratio(option: &str) -> Option<OptionRatio> {
+    let folded = plain_text(option).to_lowercase();
+    let (place, text, x, share) = only_factor(&folded)?;
     let before = folded.get(..place.start)?.trim_end();
     // A bound stands before `a factor of`.
     let outer = FACTOR_OF.iter().find_map(|words| before.strip_suffix(words)).map_or(before, str::trim_end);
@@ -365,6 +373,10 @@ mod tests {
         ] {
             assert!(!is(text, x), "{text} {x}");
         }
+    }
+
+    #[test]
+    fn ranges_bounds_and_denials_are_no_ratio() {
         for text in [
             "twice as much as 3 s",
             "half or double",
