@@ -335,10 +335,7 @@ fn margin_row(m: &Margin) -> MarginRow<'_> {
         current: m.current,
         largest: m.largest,
         breaks: m.breaks,
-        how: m
-            .how
-            .as_ref()
-            .map(|(kind, subject)| BreakRow { kind: key(kind.description()), subject: subject }),
+        how: m.how.as_ref().map(|(kind, subject)| BreakRow { kind: key(kind.description()), subject }),
         bound: m.bound,
         runs: m.runs,
         geoms: &m.geoms,
