@@ -4,7 +4,7 @@ use crate::background;
 use crate::models::models;
 use crate::report::finding_dict;
 use facade::bind::scene::Models;
-use facade::check::{CrossCheck, ReferenceRecording, cross_check};
+use facade::check::{self, CrossCheck, ReferenceRecording};
 use facade::finding::{Finding, InFile};
 use facade::lint::{ModelFolder, load_lesson};
 use facade::report::to_value;
@@ -46,7 +46,7 @@ fn compared(
     let models = Models::new(folder);
     let lesson = load_lesson(SourceFile::new(path, text), models.folder());
     let mut findings = Vec::new();
-    let cross_check = cross_check(&lesson, &models, key_of, recording, &mut findings);
+    let cross_check = check::cross_check(&lesson, &models, key_of, recording, &mut findings);
     (cross_check, findings.into_iter().map(|f| f.at(&lesson.file)).collect())
 }
 
@@ -61,7 +61,7 @@ pub(crate) fn claimed_runs(
 ) -> PyResult<Vec<RequestRow>> {
     let folder = self::models(models)?;
     let (cross_check, _) = background::run(py, None, |_| compared((path, text), folder, None))?;
-    let row = |r: facade::check::Request| {
+    let row = |r: check::Request| {
         let (task, refused) = match r.task {
             Ok(task) => (Some(to_value(&task).to_string()), None),
             Err(reason) => (None, Some(reason)),
