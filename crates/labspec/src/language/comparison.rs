@@ -1,3 +1,5 @@
+use super::degrees::Degree;
+
 /// Words with which a text compares two values, or states a change.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Comparison {
@@ -47,6 +49,12 @@ pub struct Comparison {
     pub at_end: &'static [&'static str],
     /// They state a bound together with the word behind them: `at least as fast`.
     pub limits: &'static [&'static str],
+    /// Words that say that one of two values is larger, or smaller.
+    pub degrees: &'static [(&'static str, Degree)],
+    /// Before what something is compared with: `than`.
+    pub than: &'static [&'static str],
+    /// Before the second of two settings: `from 1 kg to 2 kg`.
+    pub to: &'static [&'static str],
     /// They name an object by another one: `the other ball`.
     pub partners: &'static [&'static str],
     /// Before an object that acts on another one: `by`.
@@ -82,6 +90,9 @@ pub(super) const UNREAD: Comparison = Comparison {
     at_start: &[],
     at_end: &[],
     limits: &[],
+    degrees: &[],
+    than: &[],
+    to: &[],
     partners: &[],
     agents: &[],
     ordinals: &[],

@@ -1,5 +1,6 @@
 use super::Language;
 use super::comparison::Comparison;
+use super::degrees::{Degree, Side};
 use super::ratios::Ratios;
 
 pub(super) static ENGLISH: Language = Language {
@@ -240,6 +241,39 @@ pub(super) static ENGLISH: Language = Language {
         ],
         at_end: &["at the end", "in the end", "finally"],
         limits: &["least", "most", "without"],
+        degrees: &[
+            ("larger", Degree::Amount(Side::Larger)),
+            ("greater", Degree::Amount(Side::Larger)),
+            ("bigger", Degree::Amount(Side::Larger)),
+            ("higher", Degree::Amount(Side::Larger)),
+            ("it grows", Degree::Amount(Side::Larger)),
+            ("it increases", Degree::Amount(Side::Larger)),
+            ("it rises", Degree::Amount(Side::Larger)),
+            ("more time", Degree::Amount(Side::Larger)),
+            ("smaller", Degree::Amount(Side::Smaller)),
+            ("lower", Degree::Amount(Side::Smaller)),
+            ("it shrinks", Degree::Amount(Side::Smaller)),
+            ("it decreases", Degree::Amount(Side::Smaller)),
+            ("it drops", Degree::Amount(Side::Smaller)),
+            ("less time", Degree::Amount(Side::Smaller)),
+            ("longer", Degree::Length(Side::Larger)),
+            ("shorter", Degree::Length(Side::Smaller)),
+            ("later", Degree::Time(Side::Larger)),
+            ("earlier", Degree::Time(Side::Smaller)),
+            ("sooner", Degree::Time(Side::Smaller)),
+            ("faster", Degree::Speed(Side::Larger)),
+            ("slower", Degree::Speed(Side::Smaller)),
+        ],
+        than: &[
+            "than",
+            "compare with",
+            "compares with",
+            "compared with",
+            "compare to",
+            "compares to",
+            "compared to",
+        ],
+        to: &["to"],
         partners: &["other", "another", "partner"],
         agents: &["by", "that", "which", "whom"],
         ordinals: &[("first", 1), ("second", 2), ("third", 3), ("fourth", 4)],

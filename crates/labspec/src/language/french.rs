@@ -1,5 +1,6 @@
 use super::Language;
 use super::comparison::Comparison;
+use super::degrees::{Degree, Side};
 use super::ratios::Ratios;
 
 pub(super) static FRENCH: Language = Language {
@@ -130,6 +131,30 @@ pub(super) static FRENCH: Language = Language {
         at_start: &["au début", "initiale", "initial"],
         at_end: &["à la fin", "finalement"],
         limits: &[],
+        degrees: &[
+            ("plus grand", Degree::Amount(Side::Larger)),
+            ("plus grande", Degree::Amount(Side::Larger)),
+            ("plus élevé", Degree::Amount(Side::Larger)),
+            ("plus élevée", Degree::Amount(Side::Larger)),
+            ("elle augmente", Degree::Amount(Side::Larger)),
+            ("il augmente", Degree::Amount(Side::Larger)),
+            ("plus petit", Degree::Amount(Side::Smaller)),
+            ("plus petite", Degree::Amount(Side::Smaller)),
+            ("elle diminue", Degree::Amount(Side::Smaller)),
+            ("il diminue", Degree::Amount(Side::Smaller)),
+            ("plus long", Degree::Length(Side::Larger)),
+            ("plus longue", Degree::Length(Side::Larger)),
+            ("plus court", Degree::Length(Side::Smaller)),
+            ("plus courte", Degree::Length(Side::Smaller)),
+            ("plus tard", Degree::Time(Side::Larger)),
+            ("plus tôt", Degree::Time(Side::Smaller)),
+            ("plus rapide", Degree::Speed(Side::Larger)),
+            ("plus vite", Degree::Speed(Side::Larger)),
+            ("plus lent", Degree::Speed(Side::Smaller)),
+            ("plus lente", Degree::Speed(Side::Smaller)),
+        ],
+        than: &["que", "par rapport à"],
+        to: &["à"],
         partners: &["autre", "partenaire"],
         agents: &["par", "que"],
         ordinals: &[

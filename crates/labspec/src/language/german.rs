@@ -1,5 +1,6 @@
 use super::Language;
 use super::comparison::Comparison;
+use super::degrees::{Degree, Side};
 use super::ratios::Ratios;
 
 pub(super) static GERMAN: Language = Language {
@@ -228,6 +229,29 @@ pub(super) static GERMAN: Language = Language {
         at_start: &["am anfang", "zu beginn", "anfangs"],
         at_end: &["am ende", "schließlich", "zum schluss"],
         limits: &["mindestens", "höchstens"],
+        degrees: &[
+            ("größer", Degree::Amount(Side::Larger)),
+            ("höher", Degree::Amount(Side::Larger)),
+            ("sie wächst", Degree::Amount(Side::Larger)),
+            ("er wächst", Degree::Amount(Side::Larger)),
+            ("es wächst", Degree::Amount(Side::Larger)),
+            ("sie steigt", Degree::Amount(Side::Larger)),
+            ("mehr zeit", Degree::Amount(Side::Larger)),
+            ("kleiner", Degree::Amount(Side::Smaller)),
+            ("niedriger", Degree::Amount(Side::Smaller)),
+            ("sie sinkt", Degree::Amount(Side::Smaller)),
+            ("er sinkt", Degree::Amount(Side::Smaller)),
+            ("sie nimmt ab", Degree::Amount(Side::Smaller)),
+            ("weniger zeit", Degree::Amount(Side::Smaller)),
+            ("länger", Degree::Length(Side::Larger)),
+            ("kürzer", Degree::Length(Side::Smaller)),
+            ("später", Degree::Time(Side::Larger)),
+            ("früher", Degree::Time(Side::Smaller)),
+            ("schneller", Degree::Speed(Side::Larger)),
+            ("langsamer", Degree::Speed(Side::Smaller)),
+        ],
+        than: &["als", "verglichen mit", "im vergleich zu"],
+        to: &["auf"],
         partners: &["andere", "anderen", "anderer", "anderes", "partner"],
         agents: &["von", "vom", "durch"],
         ordinals: &[

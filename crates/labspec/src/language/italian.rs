@@ -1,5 +1,6 @@
 use super::Language;
 use super::comparison::Comparison;
+use super::degrees::{Degree, Side};
 use super::ratios::Ratios;
 
 pub(super) static ITALIAN: Language = Language {
@@ -112,6 +113,23 @@ pub(super) static ITALIAN: Language = Language {
         at_start: &["all'inizio"],
         at_end: &["alla fine"],
         limits: &["non"],
+        degrees: &[
+            ("maggiore", Degree::Amount(Side::Larger)),
+            ("aumenta", Degree::Amount(Side::Larger)),
+            ("cresce", Degree::Amount(Side::Larger)),
+            ("minore", Degree::Amount(Side::Smaller)),
+            ("diminuisce", Degree::Amount(Side::Smaller)),
+            ("più lungo", Degree::Length(Side::Larger)),
+            ("più lunga", Degree::Length(Side::Larger)),
+            ("più corto", Degree::Length(Side::Smaller)),
+            ("più corta", Degree::Length(Side::Smaller)),
+            ("più tardi", Degree::Time(Side::Larger)),
+            ("più veloce", Degree::Speed(Side::Larger)),
+            ("più lento", Degree::Speed(Side::Smaller)),
+            ("più lenta", Degree::Speed(Side::Smaller)),
+        ],
+        than: &["che", "rispetto a"],
+        to: &["a"],
         partners: &["altro", "altra"],
         agents: &["da", "dal", "dalla", "che"],
         ordinals: &[

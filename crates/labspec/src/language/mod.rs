@@ -4,6 +4,7 @@
 
 mod chinese;
 mod comparison;
+pub(crate) mod degrees;
 mod english;
 mod french;
 mod german;
@@ -13,6 +14,7 @@ mod spanish;
 pub(crate) mod words;
 
 pub use comparison::Comparison;
+use degrees::Degree;
 pub use ratios::Ratios;
 
 /// One kind of words that compare.
@@ -118,6 +120,11 @@ impl Languages {
         of: impl Fn(&'static Comparison) -> &'static [&'static str],
     ) -> impl Iterator<Item = &'static str> {
         self.words_of(move |language| of(&language.comparison))
+    }
+
+    /// Words for larger and smaller values in the languages of the set.
+    pub(crate) fn degrees(self) -> impl Iterator<Item = (&'static str, Degree)> {
+        self.iter().flat_map(|language| language.comparison.degrees.iter().copied())
     }
 
     /// Ordinal numbers of the languages of the set.

@@ -1,5 +1,6 @@
 use super::Language;
 use super::comparison::Comparison;
+use super::degrees::{Degree, Side};
 use super::ratios::Ratios;
 
 pub(super) static SPANISH: Language = Language {
@@ -100,6 +101,24 @@ pub(super) static SPANISH: Language = Language {
         at_start: &["al principio", "al inicio"],
         at_end: &["al final"],
         limits: &[],
+        degrees: &[
+            ("mayor", Degree::Amount(Side::Larger)),
+            ("aumenta", Degree::Amount(Side::Larger)),
+            ("crece", Degree::Amount(Side::Larger)),
+            ("menor", Degree::Amount(Side::Smaller)),
+            ("disminuye", Degree::Amount(Side::Smaller)),
+            ("más largo", Degree::Length(Side::Larger)),
+            ("más larga", Degree::Length(Side::Larger)),
+            ("más corto", Degree::Length(Side::Smaller)),
+            ("más corta", Degree::Length(Side::Smaller)),
+            ("más tarde", Degree::Time(Side::Larger)),
+            ("más rápido", Degree::Speed(Side::Larger)),
+            ("más rápida", Degree::Speed(Side::Larger)),
+            ("más lento", Degree::Speed(Side::Smaller)),
+            ("más lenta", Degree::Speed(Side::Smaller)),
+        ],
+        than: &["que", "comparado con", "comparada con"],
+        to: &["a"],
         partners: &["otro", "otra"],
         agents: &["por", "que"],
         ordinals: &[

@@ -37,6 +37,7 @@ mod condition;
 mod condition_units;
 mod curve_trail;
 mod curves;
+mod direction;
 mod draws;
 mod event_at_start;
 mod evidence;

@@ -4,6 +4,7 @@ use super::bound::BoundVerify;
 use super::bracket::{BracketClaim, conditions_agree, report_undecided_bracket};
 use super::condition::ConditionMargin;
 use super::condition_units::check_condition_units;
+use super::direction::check_direction;
 use super::format::shorten;
 use super::found::MeasuredValue;
 use super::grounded::{decided_value, grounded_value};
@@ -123,8 +124,13 @@ impl OptionJudgement<'_> {
         let texts = if is_statement { std::slice::from_ref(&question.q) } else { self.options };
         let stated = texts.iter().zip(conditions).zip(&holds).filter(|(_, holds)| **holds == Some(true));
         let stated: Vec<(&Text, &Text)> = stated.map(|(both, _)| both).collect();
+        let before = if is_statement { "" } else { question.q.as_str() };
         let wrong = check_condition_units(bound, nominal, &stated, findings)
-            .or_else(|| check_stated_numbers(bound, nominal, question, &stated, findings));
+            .or_else(|| check_stated_numbers(bound, nominal, question, &stated, findings))
+            .or_else(|| {
+                let mut all = stated.iter();
+                all.find_map(|both| check_direction(bound, nominal, before, *both, findings))
+            });
         if wrong.is_none() {
             for both in &stated {
                 check_tolerance(bound, nominal, &question.q, *both, findings);
