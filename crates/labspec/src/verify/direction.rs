@@ -252,4 +252,24 @@ mod tests {
         let back = "The start is changed from 1.5 rad to 0.1 rad. What happens to the period?";
         assert_eq!(found(back, &["It grows", "It shrinks"], conditions, 0), 1);
     }
+
+    #[test]
+    fn a_quote_states_a_direction_too() {
+        let found = |quote: &str| {
+            let xml = "<mujoco><worldbody><body><joint name='j' axis='0 1 0'/><geom size='.05' pos='0 0 -.5'/></body></worldbody></mujoco>";
+            let control = serde_json::json!({"label": "start (rad)", "param": "q", "min": 0, "max": 2, "step": 0.1, "value": 0.1, "reset": true});
+            let verify = serde_json::json!({"runs": {"small": {}, "wide": {"set": {"start (rad)": 1.5}}}, "measure": {"T": "period(data.qpos[0])"},
+                "says": [[quote, "wide.T > small.T"]]});
+            let lab = serde_json::json!({"stopAt": 6, "xml": xml, "controls": [control], "setup": "data.qpos[0] = ctx.q", "plots": [], "verify": verify});
+            let lesson = format!("A wide swing takes {quote}.\n\n```lab simlab\n{lab}\n```\n");
+            let report = crate::Checker::new(|_: &str| None::<String>).check("l.md", &lesson);
+            report
+                .findings
+                .iter()
+                .filter(|finding| finding.message.contains("but its condition requires"))
+                .count()
+        };
+        assert_eq!(found("less time than a small one"), 1);
+        assert_eq!(found("more time than a small one"), 0);
+    }
 }

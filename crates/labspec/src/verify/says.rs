@@ -1,5 +1,6 @@
 //! Checks quotes: numbers and words of the text, and cells of tables.
 
+use super::direction::check_direction;
 use super::measures_another::check_words_of_measure;
 use super::named_run::{check_exchanged_runs, misnamed};
 use super::quote_checker::{Quote, QuoteChecker, QuotedValue, check_number, check_words};
@@ -121,6 +122,11 @@ fn check_single(
             .iter()
             .find_map(|place| check_ratio_of_change(quote, Some(&place.clause.text), expr, findings)),
     };
+    let nominal = &checker.outcomes.nominal;
+    let reason = reason.or_else(|| {
+        let is_held = value.is_condition() && value.holds();
+        is_held.then(|| check_direction(checker.bound, nominal, "", (quote, text), findings))?
+    });
     if reason.is_some() {
         return reason;
     }
@@ -133,7 +139,6 @@ fn check_single(
             true => quote.value.to_string(),
             false => format!("{} {clause}", place.clause.introduction),
         };
-        let nominal = &checker.outcomes.nominal;
         check_words_of_measure(checker.bound, nominal, &words, place.span.clone(), text, findings);
     }
     None
