@@ -73,9 +73,16 @@ pub(super) fn misnamed<'t>(
     let others: BTreeMap<String, &str> = others.map(|other| (other.to_lowercase(), other)).collect();
     let read = name.to_lowercase();
     let named_in = |place: &QuotePlace| {
-        let is_own = words_of(&place.clause.text).contains(&read);
-        let named = named_words(&place.clause.text).into_iter().find_map(|word| others.get(&word).copied());
-        named.filter(|_| !is_own)
+        let clause = &place.clause;
+        let named_by = |text: &str| {
+            let is_own = words_of(text).contains(&read);
+            let named = named_words(text).into_iter().find_map(|word| others.get(&word).copied());
+            named.filter(|_| !is_own).map_or(Err(is_own), Ok)
+        };
+        // The words before the comma count where the clause names no run: `On the moon, it takes 1 s`.
+        named_by(&clause.text)
+            .or_else(|is_own| if is_own { Err(true) } else { named_by(&clause.introduction) })
+            .ok()
     };
     let other = named_in(places.first()?)?;
     let is_everywhere = places.iter().all(|place| named_in(place) == Some(other));
@@ -148,6 +155,8 @@ mod tests {
             "The small swing takes 1.65 s, the wide one 1.42 s.",
             "It takes 1.65 s for the small swing and 1.42 s for the wide one.",
             "| swing | period |\n|---|---|\n| small | 1.65 s |\n| wide | 1.42 s |",
+            "For the small swing, the period is 1.65 s, for the wide one 1.42 s.",
+            "- small: 1.65 s\n- wide: 1.42 s",
         ] {
             assert_eq!(messages(text, exchanged.clone()).len(), 2, "{text}");
         }
@@ -156,6 +165,8 @@ mod tests {
             "The period is 1.65 s, and not the 1.42 s of a small swing.",
             "The wide swing takes 1.65 s against the small one's 1.42 s.",
             "It takes 1.65 s, or 1.42 s.",
+            "For the wide swing, the period is 1.65 s, for the small one 1.42 s.",
+            "- wide: 1.65 s\n- small: 1.42 s",
             "| swing | period |\n|---|---|\n| wide | 1.65 s |\n| small | 1.42 s |",
         ] {
             assert_eq!(messages(text, exchanged.clone()), [""; 0], "{text}");

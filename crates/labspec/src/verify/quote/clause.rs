@@ -25,6 +25,9 @@ const WORDS: [&str; 14] = [
     " e ",
 ];
 
+/// The beginnings of items of a list.
+const LIST_ITEMS: [&str; 3] = ["\n- ", "\n* ", "\n+ "];
+
 /// The most words of an introduction.
 const INTRODUCTION: usize = 8;
 
@@ -33,7 +36,7 @@ const INTRODUCTION: usize = 8;
 pub(in crate::verify) struct Clause {
     /// Its text; in a row of a table, the first cell of the row.
     pub(in crate::verify) text: String,
-    /// A few words before it, from the start of the sentence up to a comma: `From 0.1 rad, a swing takes`.
+    /// A few words before it, from the start of the sentence up to a comma or a colon: `From 0.1 rad, a swing takes`.
     pub(in crate::verify) introduction: String,
 }
 
@@ -50,10 +53,14 @@ pub(super) fn clause_of(file: &str, place: &Range<usize>) -> Clause {
     }
     let start = (before.len().saturating_sub(REACH)..=before.len()).find(|i| before.is_char_boundary(*i));
     let before = before.get(start.unwrap_or(0)..).unwrap_or("");
-    let before = before.rsplit("\n\n").next().unwrap_or(before).replace('\n', " ");
+    let paragraph = before.rsplit("\n\n").next().unwrap_or(before);
+    let item = LIST_ITEMS.iter().filter_map(|mark| paragraph.rfind(mark)).max();
+    let before = item.and_then(|start| paragraph.get(start..)).unwrap_or(paragraph).replace('\n', " ");
     let end = (0..=REACH.min(behind.len())).rev().find(|i| behind.is_char_boundary(*i)).unwrap_or(0);
     let behind = behind.get(..end).unwrap_or("");
-    let behind = behind.split("\n\n").next().unwrap_or(behind).replace('\n', " ");
+    let paragraph = behind.split("\n\n").next().unwrap_or(behind);
+    let item = LIST_ITEMS.iter().filter_map(|mark| paragraph.find(mark)).min();
+    let behind = item.and_then(|end| paragraph.get(..end)).unwrap_or(paragraph).replace('\n', " ");
     let after_last = ends(&before).max().unwrap_or(0);
     let first = starts(&behind).min().unwrap_or(behind.len());
     let quote = file.get(place.clone()).unwrap_or("").replace('\n', " ");
@@ -63,9 +70,9 @@ pub(super) fn clause_of(file: &str, place: &Range<usize>) -> Clause {
     Clause { text, introduction }
 }
 
-/// The few words of a sentence before a comma at the end of a text.
+/// The few words of a sentence before a comma or a colon at the end of a text.
 fn introduction(before: &str) -> Option<String> {
-    let head = before.trim_end().strip_suffix(',')?;
+    let head = before.trim_end().strip_suffix([',', ':'])?;
     let is_end = |c: char, next: Option<char>| c != ',' && separates(c, next);
     let ends =
         head.char_indices().filter(|(i, c)| is_end(*c, head.get(i + c.len_utf8()..).and_then(first_of)));
@@ -132,5 +139,6 @@ mod tests {
         assert_eq!(introduction("It falls. After 2 s, it is at 3 m.", "3 m"), "After 2 s");
         assert_eq!(introduction("From 0.1 rad it takes 1.42 s as always, then 7 s", "7 s"), "");
         assert_eq!(introduction("It takes 7 s", "7 s"), "");
+        assert_eq!(introduction("- moon: 0.406 s", "0.406 s"), "- moon");
     }
 }
