@@ -140,7 +140,9 @@ fn a_number_that_is_changed_in_the_text_is_found() {
         .collect();
     for (l, lesson) in lessons.iter().enumerate() {
         let plain = checked(&lesson.name, &lesson.text, &models, CheckLevel::CLAIMS);
-        assert_eq!(list_findings(&plain), [] as [&str; 0], "{}", lesson.name);
+        // An object without a number claims nothing any more.
+        let findings = list_findings(&plain).into_iter().filter(|f| !f.contains("verify-nothing"));
+        assert_eq!(findings.collect::<Vec<_>>(), [] as [&str; 0], "{}", lesson.name);
         for place in places(&lesson.text) {
             for (how, falsified) in FALSIFICATIONS {
                 cases.extend(falsified(&place.quote).map(|falsified| (l, place.clone(), how, falsified)));

@@ -194,12 +194,10 @@ fn asked_change(question: &str, languages: Languages) -> Option<Change> {
     let (start, phrase) = phrases.find_map(|phrase| Some((lower.find(phrase)?, phrase)))?;
     let before = lower.get(..start)?.trim_end();
     let is_by = languages.comparisons(|c| c.by).any(|by| ends_with(before, by));
-    let rest = lower.get(start + phrase.len()..)?;
-    let rest = rest.split(['?', '.', ';']).next().unwrap_or(rest);
+    let rest = lower.get(start + phrase.len()..)?.split(['?', '.', ';']).next()?;
     let words: Vec<&str> = split_words(rest).collect();
-    let change = |word: &str, part| {
-        Some(Change { message: format!("the question asks for a change (\"{word}\")"), part })
-    };
+    let message = |word: &str| format!("the question asks for a change (\"{word}\")");
+    let change = |word: &str, part| Some(Change { message: message(word), part });
     let is = |word: &str, list: ComparisonWords| languages.comparisons(list).any(|w| w == word);
     if let Some(word) = words.iter().find(|word| is(word, |c| c.loses)) {
         return change(word, Part::Loss);
