@@ -12,6 +12,7 @@ mod budget;
 mod clauses;
 mod cli;
 mod cli_run;
+mod compiled_models;
 mod conformance;
 mod constrained;
 mod course;

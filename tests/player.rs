@@ -37,44 +37,6 @@ fn bits(player: &Player) -> Vec<u64> {
     std::iter::once(&d.time).chain(all).map(|x| x.to_bits()).collect()
 }
 
-/// Models as a page ships them: compiled ahead.
-struct Stored(BTreeMap<String, Vec<u8>>);
-
-impl Models for Stored {
-    fn text(&self, _: &str) -> Option<String> {
-        None
-    }
-
-    fn compiled(&self, name: &str) -> Option<Vec<u8>> {
-        self.0.get(name).cloned()
-    }
-}
-
-#[test]
-fn a_lab_on_a_compiled_model_has_the_same_bits() {
-    let stored = labspec_core::Model::from_xml(&model_text("ball_drop")).unwrap().to_bytes();
-    let of = |bytes: Vec<u8>| Player::of_lab(LAB, Stored([("ball_drop".to_string(), bytes)].into()));
-    let (mut a, mut b) = (player(), of(stored.clone()).unwrap());
-    for lab in [&mut a, &mut b] {
-        lab.set("height", 1.5).unwrap();
-        lab.play_to(1.0).unwrap();
-    }
-    assert_eq!(bits(&a), bits(&b));
-    assert_eq!(a.findings(), b.findings());
-    // Damaged bytes, and a name that has none, are findings at the name.
-    let mut damaged = stored;
-    damaged[100] ^= 1;
-    let code = |e: Error| match e {
-        Error::Findings(list) => list.iter().map(|f| (f.code, f.span.clone())).collect::<Vec<_>>(),
-        other => panic!("{other}"),
-    };
-    let at = LAB.find("\"ball_drop").unwrap();
-    assert_eq!(code(of(damaged).unwrap_err()), [("model-unreadable", at..at + 11)]);
-    assert_eq!(code(of(Vec::new()).unwrap_err())[0].0, "model-unreadable");
-    let missing = Player::of_lab(LAB, Stored(BTreeMap::new()));
-    assert_eq!(code(missing.unwrap_err())[0].0, "unknown-model");
-}
-
 /// The scene has all fields of the present state, also after a reset and a restore, and reading it does not affect the lab.
 #[test]
 fn a_scene_is_the_present_state_and_changes_nothing() {

@@ -77,7 +77,7 @@ pub(super) fn misnamed<'t>(
         let named_by = |text: &str| {
             let is_own = words_of(text).contains(&read);
             let named = named_words(text).into_iter().find_map(|word| others.get(&word).copied());
-            named.filter(|_| !is_own).map_or(Err(is_own), Ok)
+            named.filter(|_| !is_own).ok_or(is_own)
         };
         // The words before the comma count where the clause names no run: `On the moon, it takes 1 s`.
         named_by(&clause.text)

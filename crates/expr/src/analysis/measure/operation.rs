@@ -285,11 +285,7 @@ impl MeasureWalk<'_> {
                 self.clash(span, left, right);
                 left.sum(right)
             }
-            // A factor of 1 is written where it is a quantity: `m * g * 1`.
-            BinaryOp::Multiply => {
-                let number = self.literal(a).or(self.literal(b)).filter(|x| *x != 1.0);
-                left.product(right, number)
-            }
+            BinaryOp::Multiply => left.product(right, self.literal(a).or(self.literal(b))),
             BinaryOp::Divide => {
                 let number = self.literal(a).or(self.literal(b).map(|x| 1.0 / x));
                 left.product(right.power(-1.0), number)
