@@ -51,8 +51,8 @@ fn a_lab_on_a_compiled_model_has_the_same_bits() {
         Error::Findings(list) => list.iter().map(|f| (f.code, f.span.clone())).collect::<Vec<_>>(),
         other => panic!("{other}"),
     };
-    let at = LAB.find("\"ball_drop").unwrap();
-    assert_eq!(code(of(damaged).unwrap_err()), [("model-unreadable", at..at + 11)]);
+    let at = LAB.find("ball_drop").unwrap();
+    assert_eq!(code(of(damaged).unwrap_err()), [("model-unreadable", at..at + 9)]);
     assert_eq!(code(of(Vec::new()).unwrap_err())[0].0, "model-unreadable");
     let missing = Player::of_lab(LAB, Stored(BTreeMap::new()));
     assert_eq!(code(missing.unwrap_err())[0].0, "unknown-model");
