@@ -35,7 +35,9 @@ fn lab(verify: &Json) -> Json {
 fn checked(run: &Json) -> (Checked, String) {
     let measure = json!({"kind": "final(model.opt.integrator)", "g": "final(model.opt.gravity[2])"});
     let text = lab(&json!({"runs": {"one": run}, "measure": measure, "says": []})).to_string();
-    (check_text("lab.json", &text), text)
+    let mut checked = check_text("lab.json", &text);
+    checked.findings.retain(|f| f.code != "verify-nothing");
+    (checked, text)
 }
 
 fn measured(run: &Json, name: &str) -> f64 {

@@ -202,7 +202,7 @@ fn geometry_takes_shapes() {
 const ENGINE: [&str; 2] = ["engine", "core"];
 
 /// The modules of the engine, from the lowest to the highest. A file imports only its own module and lower ones.
-const MODULES: [&str; 14] = [
+const MODULES: [&str; 16] = [
     "math",
     "kinds",
     "geometry",
@@ -215,7 +215,9 @@ const MODULES: [&str; 14] = [
     "sensor",
     "step",
     "setup",
+    "source",
     "mjcf",
+    "no_mjcf",
     "api",
 ];
 

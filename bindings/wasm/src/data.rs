@@ -95,8 +95,8 @@ impl RawData {
     pub fn new(model: &RawModel) -> Result<RawData, JsValue> {
         let data = Data::planned(&model.model, Plan::new(&model.model, &AccessSet::ANY));
         let world = World {
-            // Each call brings its model.
-            model: Model::default(),
+            // Each call brings its model, with what a page has changed.
+            model: model.model.clone(),
             data,
             key: None,
             functions: Functions::new(),

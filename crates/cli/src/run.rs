@@ -17,7 +17,6 @@ use labspec_plot::line_chart;
 use labspec_site::chart;
 use std::borrow::Cow;
 use std::fmt::Write;
-use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 /// Arguments of `run`.
@@ -32,8 +31,8 @@ pub(super) struct RunArguments {
     #[arg(long, value_name = "N", conflicts_with = "until")]
     steps: Option<usize>,
     /// Sample after every K steps
-    #[arg(long, value_name = "K", default_value_t = NonZeroUsize::MIN)]
-    every: NonZeroUsize,
+    #[arg(long, value_name = "K", default_value_t = 1)]
+    every: usize,
     /// Compute every field in every step, read or not, as MuJoCo does. The results are the same; the run takes longer
     #[arg(long)]
     full: bool,
@@ -69,7 +68,7 @@ pub(super) fn run(a: &RunArguments) -> Result<CommandOutcome, Failure> {
     let options = RunOptions {
         until: a.until,
         steps: a.steps,
-        every: a.every.get(),
+        every: a.every,
         set: a.handled.set(&target.lab)?,
         press: a.handled.press(&target.lab)?,
         full: a.full,

@@ -33,6 +33,7 @@ mod mjcf;
 #[path = "no_mjcf.rs"]
 mod mjcf;
 mod setup;
+mod source;
 
 use labspec_engine::{collision, constraint, dynamics, forces, geometry, kinds, model, query, sensor, step};
 

@@ -3,9 +3,9 @@
 #[path = "mjcf/rules/mod.rs"]
 pub mod rules;
 
-use crate::api::files::Files;
-use crate::api::patch::{Patch, Refusal};
 use crate::model::Model;
+use crate::source::files::Files;
+use crate::source::model_patch::{Patch, Refusal};
 
 pub use labspec_finding::{Finding, Severity};
 

@@ -6,14 +6,12 @@ pub(crate) mod call;
 mod contents;
 pub(crate) mod data;
 pub(crate) mod error;
-pub(crate) mod files;
 #[cfg(test)]
 #[allow(clippy::unwrap_used)] // a panic is the report of a failed test
 mod idle_actuators;
 pub(crate) mod model;
 #[cfg(feature = "nalgebra")]
 pub mod nalgebra;
-pub(crate) mod patch;
 #[cfg(test)]
 #[allow(clippy::unwrap_used)] // a panic is the report of a failed test
 mod planar_chains;

@@ -46,13 +46,6 @@ impl std::fmt::Debug for Model {
     }
 }
 
-/// An empty model: no bodies, not even the world, and the default options. It stands where a model is needed before there is one.
-impl Default for Model {
-    fn default() -> Model {
-        Model::new(inner::Model::default())
-    }
-}
-
 impl PartialEq for Model {
     fn eq(&self, other: &Model) -> bool {
         self.inner == other.inner
@@ -91,7 +84,7 @@ impl Model {
     /// # Errors
     ///
     /// All errors that were found: [`Error::diagnostics`].
-    pub fn from_xml_with(xml: &str, files: &dyn crate::api::files::Files) -> Result<Model, Error> {
+    pub fn from_xml_with(xml: &str, files: &dyn crate::source::files::Files) -> Result<Model, Error> {
         crate::mjcf::compile_with(xml, files, None).map(Model::new).map_err(Error::Model)
     }
 
@@ -441,7 +434,7 @@ pub(super) fn find(names: &Names, kind: Obj, name: &str) -> Result<usize, Error>
 #[allow(clippy::unwrap_used)] // a panic is the report of a failed test
 mod tests {
     use super::*;
-    use crate::api::call::{inverse, reset_data, step};
+    use crate::api::call::{reset_data, step};
     use crate::api::data::Data;
     use crate::model::reflect::field;
 
@@ -464,17 +457,5 @@ mod tests {
             let refused = m.field_mut(field(object, name).unwrap()).map(|_| ()).unwrap_err();
             assert!(matches!(refused, Error::NotWritable(_)), "{name}: {refused}");
         }
-    }
-
-    /// It stands where a model is needed before there is one; no call panics.
-    #[test]
-    fn an_empty_model_steps() {
-        let m = Model::default();
-        let mut d = Data::new(&m);
-        step(&m, &mut d).unwrap();
-        inverse(&m, &mut d).unwrap();
-        assert!((d.time - m.opt.timestep).abs() < 1e-15);
-        assert_eq!((m.nbody, d.ncon, d.qpos.len()), (0, 0, 0));
-        assert!(Model::from_bytes(&m.to_bytes()).is_ok_and(|again| again == m));
     }
 }

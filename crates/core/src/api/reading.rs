@@ -6,14 +6,14 @@ use crate::mjcf;
 #[cfg(feature = "mjcf")]
 use std::path::Path;
 
-pub use super::files::{FileProblem, Files, Folder, MAX_FILE, MAX_TEXT, NoFiles};
-pub use super::patch::{Patch, Refusal};
 #[cfg(feature = "mjcf")]
 pub use crate::mjcf::{
     Attr, AttributeType, Element, Keyword, MAX_ALL_ATTRIBUTES, MAX_ATTRIBUTES, MAX_DEPTH, MAX_DOFS,
     MAX_ELEMENTS, MAX_GEOMS, MAX_MASS, MjcfFileError, SchemaRow, Status, schema_root, schema_rows,
 };
 pub use crate::mjcf::{Finding, Severity, rules};
+pub use crate::source::files::{FileProblem, Files, Folder, MAX_FILE, MAX_TEXT, NoFiles};
+pub use crate::source::model_patch::{Patch, Refusal};
 
 /// The result of reading the text of a model.
 #[derive(Clone, Debug)]

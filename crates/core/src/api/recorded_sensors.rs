@@ -14,7 +14,7 @@ fn parse(line: &str) -> (&str, Vec<f64>) {
 }
 
 fn compile(xml: &str) -> Model {
-    mjcf::compile_only(xml, &super::files::NoFiles).unwrap_or_else(|list| {
+    mjcf::compile_only(xml, &crate::source::files::NoFiles).unwrap_or_else(|list| {
         panic!("{}", list.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))
     })
 }

@@ -42,9 +42,9 @@ mod unsimulated;
 use std::io::Read;
 use std::path::Path;
 
-use crate::api::files::{Files, Folder, MAX_TEXT, NoFiles};
-use crate::api::patch::{Patch, Refusal};
 use crate::model::Model;
+use crate::source::files::{Files, Folder, MAX_TEXT, NoFiles};
+use crate::source::model_patch::{Patch, Refusal};
 use text::diagnostic::Diagnostics;
 
 pub use labspec_finding::{Finding, Severity};

@@ -20,11 +20,11 @@ use super::tendon::{fill_tendon, read_tendon};
 use super::text::diagnostic::Diagnostics;
 use super::text::{load, tree};
 use super::{expand, fill, ids, layout, names, settings};
-use crate::api::files::Files;
-use crate::api::patch::{Patch, Refusal};
 use crate::mjcf::gather::listed;
 use crate::mjcf::rules;
 use crate::model::Model;
+use crate::source::files::Files;
+use crate::source::model_patch::{Patch, Refusal};
 
 /// The checked text of a model, from which the specifications are read.
 struct SpecInputs<'a> {

@@ -139,8 +139,8 @@ fn is_combined(key: f64, explained: &[TextNumber], question: &Question) -> bool 
     explained.iter().enumerate().any(|(i, a)| {
         explained.iter().skip(i + 1).chain(&given).any(|b| {
             let digit = 0.1_f64.powi(a.decimals.max(b.decimals) as i32);
-            let is_key = |x: f64| (x.abs() - key.abs()).abs() <= 1.5 * digit;
-            a.significant > 1 && b.significant > 1 && (is_key(a.value - b.value) || is_key(a.value + b.value))
+            let is_key = |x: f64| (x - key).abs() <= 1.5 * digit;
+            a.significant > 1 && b.significant > 1 && (is_key((a.value - b.value).abs()) || is_key(a.value + b.value))
         })
     })
 }

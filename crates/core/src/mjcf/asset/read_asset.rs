@@ -7,7 +7,6 @@ use std::ops::Range;
 use super::hfield::HField;
 use super::mesh::{self, AssetProblem, CompiledMesh, MeshBody, Raw};
 use super::skin::{self, Bone, Skin};
-use crate::api::files::{Files, MAX_FILE};
 use crate::kinds::geom;
 use crate::math::{IDENTITY, norm};
 use crate::mjcf::asset::mesh::build::{self, MeshOptions};
@@ -19,6 +18,7 @@ use crate::mjcf::spec::{BodySpec, PairSpec};
 use crate::mjcf::text::diagnostic::{Diagnostics, shorten_name};
 use crate::mjcf::text::load;
 use crate::mjcf::text::tree::{ElementNode, ElementTree, name};
+use crate::source::files::{Files, MAX_FILE};
 
 /// Limit in bytes for all files, vertices and triangles of meshes, and samples of height fields together. Without it, a small
 /// text could request any amount.

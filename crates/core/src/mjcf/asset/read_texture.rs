@@ -1,11 +1,11 @@
 //! `texture`: the declarations of textures, for views. Their files are not read here.
 
-use crate::api::files;
 use crate::mjcf::classes::Props;
 use crate::mjcf::context::Context;
 use crate::mjcf::gather::listed;
 use crate::mjcf::text::tree::{ElementNode, name};
 use crate::model::texture::Texture;
+use crate::source::files;
 
 /// The files of the faces of a cube, in the order of the faces.
 const FACES: [&str; 6] = ["fileright", "fileleft", "fileup", "filedown", "filefront", "fileback"];

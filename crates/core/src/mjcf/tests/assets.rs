@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use crate::api::files::Files;
 use crate::mjcf::compile_with;
 use crate::model::Model;
+use crate::source::files::Files;
 use crate::step::step;
 use crate::step::workspace::Workspace;
 

@@ -1,8 +1,8 @@
 //! Invalid models and the diagnostics that an author reads.
 
 use super::world;
-use crate::api::files::{FileProblem, Files, NoFiles};
 use crate::mjcf::{check_xml, compile_with};
+use crate::source::files::{FileProblem, Files, NoFiles};
 
 /// Each finding with its line of the text, and its span underlined.
 fn format_findings(xml: &str) -> String {

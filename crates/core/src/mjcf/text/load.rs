@@ -14,10 +14,10 @@ use super::patch;
 use super::scan;
 use super::tree::{self, ElementTree};
 use super::xml::{self, XmlElement};
-use crate::api::files::{FileProblem, Files, folder_of, normalize_path};
-use crate::api::patch::{Patch, Refusal};
 use crate::mjcf::rules;
 use crate::mjcf::{MAX_TEXT, names};
+use crate::source::files::{FileProblem, Files, folder_of, normalize_path};
+use crate::source::model_patch::{Patch, Refusal};
 
 /// Limit for the number of files.
 const MAX_FILES: usize = 500;

@@ -6,9 +6,9 @@
 
 use super::diagnostic::nearest;
 use super::xml::{XmlAttribute, XmlElement};
-use crate::api::patch::{Patch, Refusal};
 use crate::mjcf::gather::listed;
 use crate::mjcf::schema::{self, AttributeType, INCLUDE, ROOT};
+use crate::source::model_patch::{Patch, Refusal};
 use labspec_finding::order;
 
 /// Elements that occur at most once and may be absent. The first name is the parent of the second.
@@ -336,9 +336,9 @@ fn suggestion<'n>(word: &str, names: impl Iterator<Item = &'n str>, none: &str) 
 
 #[cfg(test)]
 mod tests {
-    use crate::api::patch::Patch;
     use crate::mjcf::{NoFiles, check_patched};
     use crate::model::Model;
+    use crate::source::model_patch::Patch;
 
     const TEXT: &str = "<mujoco><default><geom friction='0.3'/></default><worldbody><geom name='floor' type='plane' size='1 1 1'/>\
         <body name='heavy ball' pos='0 0 1'><freejoint/><geom name='iron' size='.1' mass='1'/></body>\
