@@ -51,7 +51,7 @@ test("bytes that are not a model of this version, and models that need convex sh
   for (const wrong of [damaged, bytes.subarray(0, 100), new Uint8Array()]) {
     throws(() => Model.fromBytes(wrong), "not-a-model", /not a compiled model of this version/);
     throws(() => new Lab(json, { drop: wrong }), "model-unreadable", /not a compiled model of this version/);
-    throws(() => new full.Lab(json, { drop: wrong }), "model-unreadable");
+    assert.throws(() => new full.Lab(json, { drop: wrong }), (e) => e instanceof full.LabspecError && e.code === "model-unreadable");
   }
   const cylinders = full.Model.fromXML("<mujoco><worldbody><geom type='box' size='1 1 .1'/><body name='bob' pos='0 0 1'><freejoint/><geom type='cylinder' size='.1 .1'/></body></worldbody></mujoco>").toBytes();
   throws(() => new Lab(json, { drop: cylinders }), "model-unreadable", /convex/);
