@@ -136,11 +136,15 @@ fn check_question(question: &Question, findings: &mut Vec<Finding>) {
 /// Whether an answer is the sum or the difference of two numbers, one of the explanation and one of it or of the question.
 fn is_combined(key: f64, explained: &[TextNumber], question: &Question) -> bool {
     let given = numbers(question.q.as_str());
-    explained.iter().enumerate().any(|(i, a)| {
+    // The difference of two numbers may have any sign, so that a negative answer would never be compared.
+    let mut explained_numbers = explained.iter().enumerate().filter(|_| key > 0.0);
+    explained_numbers.any(|(i, a)| {
         explained.iter().skip(i + 1).chain(&given).any(|b| {
             let digit = 0.1_f64.powi(a.decimals.max(b.decimals) as i32);
             let is_key = |x: f64| (x - key).abs() <= 1.5 * digit;
-            a.significant > 1 && b.significant > 1 && (is_key((a.value - b.value).abs()) || is_key(a.value + b.value))
+            a.significant > 1
+                && b.significant > 1
+                && (is_key((a.value - b.value).abs()) || is_key(a.value + b.value))
         })
     })
 }
