@@ -30,9 +30,12 @@ const RIGHT: [&str; 2] = ["right", "correct"];
 fn check_question(question: &Question, findings: &mut Vec<Finding>) {
     let QuestionKind::Choice { options, key: Some(keyed), .. } = &question.kind else { return };
     let (Some(explain), Some(key)) = (&question.explain, question.right_option()) else { return };
-    let text = format!(" {} ", normalized_words(explain.as_str()));
-    let named = (0..options.len().min(MAX_OPTIONS))
-        .filter(|i| calls_correct(&text, *i, options.get(*i).map_or("", |o| o.as_str())));
+    let sentences: Vec<String> =
+        explain.as_str().split(". ").map(|sentence| format!(" {} ", normalized_words(sentence))).collect();
+    let named = (0..options.len().min(MAX_OPTIONS)).filter(|i| {
+        let option = options.get(*i).map_or("", |option| option.as_str());
+        sentences.iter().any(|sentence| calls_correct(sentence, *i, option))
+    });
     let named: Vec<usize> = named.collect();
     if let [other] = named.as_slice()
         && *other != key
