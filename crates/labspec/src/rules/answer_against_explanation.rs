@@ -95,7 +95,7 @@ fn check_question(question: &Question, findings: &mut Vec<Finding>) {
     };
     let html = explain.as_str();
     let all = numbers(html);
-    if key == 0.0 || all.iter().any(|n| is(n, key, decimals)) || is_combined(key, &all, question) {
+    if key == 0.0 || all.iter().any(|n| is(n, key, decimals)) {
         return;
     }
     let unit = unit.as_ref().map_or(String::new(), |u| plain_unit(u.as_str()));
@@ -120,6 +120,7 @@ fn check_question(question: &Question, findings: &mut Vec<Finding>) {
     let slipped = results.iter().find_map(|n| Some((*n, slip_of(n)?)));
     // The only number in the unit of the answer is another one. Several may be steps towards it.
     let other = results.iter().find(|n| only && in_its_unit(n) && (n.value - key).abs() > tolerance);
+    let other = other.filter(|_| !is_combined(key, &all, question));
     let Some((n, why)) = slipped.or(other.map(|n| (*n, "no number in the explanation is the answer"))) else {
         return;
     };
