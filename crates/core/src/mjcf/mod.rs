@@ -50,6 +50,7 @@ use text::diagnostic::Diagnostics;
 pub use labspec_finding::{Finding, Severity};
 pub use schema::{Attr, AttributeType, Element, Keyword, SchemaRow, Status, schema_root, schema_rows};
 pub use text::diagnostic::MjcfFileError;
+
 /// Limit for the nesting depth of elements.
 pub const MAX_DEPTH: usize = 1000;
 /// Limit for the number of elements.

@@ -49,7 +49,7 @@ const NEGATIONS: [&str; 14] = [
     " not ", " no ", " never ", " none ", " t ", " nicht ", " kein ", " keine ", " nie ", " ne ", " n ",
     " pas ", " non ", " nunca ",
 ];
-/// Words with which an explanation goes on that agrees with a part of the statement only.
+/// Words with which the first sentence of an explanation goes on that agrees with a part of the statement only.
 const CONCESSIONS: [&str; 7] = [" but ", " however ", " aber ", " jedoch ", " mais ", " pero ", " ma "];
 
 /// Reports an explanation of a statement that begins with the other answer.
@@ -66,7 +66,8 @@ fn check_statement(question: &Question, findings: &mut Vec<Finding>) {
     // "No" agrees with a statement that denies something, and "yes, but" with a part of it.
     let words = format!(" {} ", normalized_words(question.q.as_str()));
     let is_denial = NEGATIONS.iter().any(|negation| words.contains(negation));
-    let explanation = format!(" {} ", normalized_words(explain.as_str()));
+    let first = explain.as_str().split(". ").next().unwrap_or("");
+    let explanation = format!(" {} ", normalized_words(first));
     let concedes = CONCESSIONS.iter().any(|but| explanation.contains(but));
     if is_denial || concedes {
         return;

@@ -7,6 +7,7 @@ use super::given::settings_of;
 use super::option_numbers::{constant, is_below};
 use super::outcome::MeasuredRuns;
 use super::quote::quantities_in;
+use super::ratio_order::{measure_of, run_of};
 use super::units;
 use crate::finding::Finding;
 use crate::json::read::named;
@@ -113,17 +114,6 @@ fn multiple(e: &Expr) -> (f64, &Expr) {
         }
     }
     (1.0, e)
-}
-
-fn run_of(e: &Expr) -> Option<&str> {
-    let ExprKind::Member { object, .. } = &e.kind else { return None };
-    let ExprKind::Name(name) = &object.kind else { return None };
-    Some(name)
-}
-
-fn measure_of(e: &Expr) -> Option<&str> {
-    let ExprKind::Member { name, .. } = &e.kind else { return None };
-    run_of(e).map(|_| name.text.as_str())
 }
 
 /// The only word of a text that says that a quantity of this dimension is larger, or smaller.

@@ -92,13 +92,15 @@ fn ratio_of_runs(e: &Expr) -> Option<(&Expr, &Expr)> {
     }
 }
 
-fn run_of(e: &Expr) -> Option<&str> {
+/// The run of `run.measure`.
+pub(super) fn run_of(e: &Expr) -> Option<&str> {
     let ExprKind::Member { object, .. } = &e.kind else { return None };
     let ExprKind::Name(name) = &object.kind else { return None };
     Some(name)
 }
 
-fn measure_of(e: &Expr) -> Option<&str> {
+/// The measure of `run.measure`.
+pub(super) fn measure_of(e: &Expr) -> Option<&str> {
     let ExprKind::Member { name, .. } = &e.kind else { return None };
     run_of(e).map(|_| name.text.as_str())
 }
